@@ -1,0 +1,54 @@
+/// Stochastic iteration of the light transport with parallel ray bundles (paper §2.2 and §3).
+#pragma once
+
+#include <transillum/base/monitor.h>
+#include <transillum/base/parallel.h>
+#include <transillum/base/spectrum.h>
+#include <transillum/geometry/patch_hierarchy.h>
+#include <transillum/geometry/surface_mesh.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace transillum {
+
+enum class Averaging {
+    balanced,  ///< growing weights, feedback refreshed in blocks, energy balance at powers of two
+    paper      ///< eq. (5): the 1/m average is fed back after every direction
+};
+
+struct IterationOptions {
+    std::uint64_t iterations = 1024;  ///< most directions, each transferred both ways
+    double target_error = 0.0;        ///< stop when the estimated relative error is below; 0: never
+    double seconds = 0.0;             ///< stop after that time; 0: never. The result then depends on the machine's speed
+    double pixel_size = 0.0;          ///< of the transillumination buffer [scene units]
+    std::uint64_t seed = 1;
+    Averaging averaging = Averaging::balanced;
+};
+
+/// What every patch contributes on its own: one entry a patch of the hierarchy.
+struct PatchSources {
+    std::vector<Spectrum> emission;  ///< emitted radiance that travels by iteration [W sr^-1 m^-2]
+    std::vector<Spectrum> direct;    ///< radiance reflected from the first shot [W sr^-1 m^-2]
+    std::vector<Spectrum> albedo;    ///< Lambert albedo; 0 for a black back
+};
+
+struct TransportResult {
+    std::vector<Spectrum> irradiance;      ///< one a patch, of emission and direct after any number of reflections [W m^-2]
+    std::vector<Spectrum> standard_error;  ///< of the irradiance [W m^-2]
+    std::vector<float> coverage;           ///< fragments seen, over all directions
+    std::uint64_t iterations = 0;
+    double relative_error = 0.0;           ///< root of the area-weighted mean of squared errors over the mean irradiance
+    bool interrupted = false;
+    SpectrumSum escaped{0.0};              ///< flux that left the scene [radiance * sr * square scene units]
+    std::uint64_t fragments = 0;           ///< exchanged, over all directions
+};
+
+/// \pre every vector of `sources` has patches.patch_count() finite, non-negative entries, albedo at most 1.
+/// \throws UsageError when light would never fade: nothing absorbs and nothing leaves the scene.
+/// The result depends neither on the number of workers nor, unless time stops it, on the machine.
+[[nodiscard]] TransportResult iterate(const SurfaceMesh& mesh, const PatchHierarchy& patches,
+                                      const PatchSources& sources, const IterationOptions& options,
+                                      const Workers& workers, Monitor& monitor);
+
+}  // namespace transillum

@@ -1,0 +1,114 @@
+#include "geometry/find_fans.h"
+
+#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
+
+#include <glm/geometric.hpp>
+
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+namespace transillum {
+
+namespace {
+
+struct Traits : OpenMesh::DefaultTraits {
+    using Point = OpenMesh::Vec3d;
+    FaceAttributes(OpenMesh::Attributes::None);
+    VertexAttributes(OpenMesh::Attributes::None);
+};
+using HalfEdgeMesh = OpenMesh::TriMesh_ArrayKernelT<Traits>;
+
+/// Disjoint sets of corners, 3 * triangle + corner.
+class CornerSets {
+public:
+    explicit CornerSets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0u); }
+    std::uint32_t find(std::uint32_t i) {
+        while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+        return i;
+    }
+    void join(std::uint32_t a, std::uint32_t b) {
+        a = find(a);
+        b = find(b);
+        parent_[std::max(a, b)] = std::min(a, b);
+    }
+
+private:
+    std::vector<std::uint32_t> parent_;
+};
+
+/// Would the half-edge structure have to hold a third face at an edge, or two fans at a vertex?
+bool is_complex(const HalfEdgeMesh& mesh, const std::array<OpenMesh::VertexHandle, 3>& v) {
+    for (int i = 0; i < 3; ++i) {
+        if (!mesh.is_boundary(v[i])) return true;
+        const auto edge = mesh.find_halfedge(v[i], v[(i + 1) % 3]);
+        if (edge.is_valid() && !mesh.is_boundary(edge)) return true;
+    }
+    return false;
+}
+
+/// Face i of the half-edge mesh is triangle i; a triangle that would make it non-manifold gets vertices of its own.
+HalfEdgeMesh make_half_edges(const SurfaceMesh& mesh, SurfaceReport& report) {
+    HalfEdgeMesh half_edges;
+    const auto add = [&](std::uint32_t vertex) {
+        const glm::dvec3& p = mesh.positions[vertex];
+        return half_edges.add_vertex({p.x, p.y, p.z});
+    };
+    for (std::uint32_t i = 0; i < mesh.positions.size(); ++i) add(i);
+    for (const RootTriangle& t : mesh.triangles) {
+        std::array<OpenMesh::VertexHandle, 3> v;
+        for (int i = 0; i < 3; ++i) v[i] = OpenMesh::VertexHandle(static_cast<int>(t.vertices[i]));
+        if (is_complex(half_edges, v)) {
+            ++report.nonmanifold_edges;
+            for (int i = 0; i < 3; ++i) v[i] = add(t.vertices[i]);
+        }
+        half_edges.add_face(v[0], v[1], v[2]);
+    }
+    return half_edges;
+}
+
+std::uint32_t corner_at(const SurfaceMesh& mesh, std::uint32_t triangle, const glm::dvec3& p) {
+    const RootTriangle& t = mesh.triangles[triangle];
+    for (std::uint32_t i = 0; i < 2; ++i)
+        if (mesh.positions[t.vertices[i]] == p) return 3 * triangle + i;
+    return 3 * triangle + 2;
+}
+
+}  // namespace
+
+void find_fans(SurfaceMesh& mesh, double crease_angle, SurfaceReport& report) {
+    const HalfEdgeMesh half_edges = make_half_edges(mesh, report);
+    const double least_cosine = std::cos(crease_angle * std::numbers::pi / 180.0);
+    CornerSets sets(3 * mesh.triangles.size());
+    for (const auto edge : half_edges.edges()) {
+        const auto h = half_edges.halfedge_handle(edge, 0);
+        if (half_edges.is_boundary(edge)) {
+            ++report.border_edges;
+            continue;
+        }
+        const auto f = static_cast<std::uint32_t>(half_edges.face_handle(h).idx());
+        const auto g = static_cast<std::uint32_t>(
+            half_edges.face_handle(half_edges.opposite_halfedge_handle(h)).idx());
+        const RootTriangle& a = mesh.triangles[f];
+        const RootTriangle& b = mesh.triangles[g];
+        if (a.material != b.material || a.object != b.object) continue;
+        if (glm::dot(normal_of(mesh, f), normal_of(mesh, g)) < least_cosine) {
+            ++report.crease_edges;
+            continue;
+        }
+        for (const auto v : {half_edges.from_vertex_handle(h), half_edges.to_vertex_handle(h)}) {
+            const auto& p = half_edges.point(v);
+            const glm::dvec3 point(p[0], p[1], p[2]);
+            sets.join(corner_at(mesh, f, point), corner_at(mesh, g, point));
+        }
+    }
+    std::vector<std::uint32_t> fan_of_set(3 * mesh.triangles.size(), 0xffffffffu);
+    mesh.fan_count = 0;
+    for (std::uint32_t c = 0; c < fan_of_set.size(); ++c) {
+        std::uint32_t& fan = fan_of_set[sets.find(c)];
+        if (fan == 0xffffffffu) fan = mesh.fan_count++;
+        mesh.triangles[c / 3].fans[c % 3] = fan;
+    }
+}
+
+}  // namespace transillum

@@ -1,0 +1,123 @@
+#include "transport/energy_balance.h"
+
+#include <transillum/base/error.h>
+
+#include <cmath>
+
+namespace transillum {
+
+namespace {
+
+/// Means over a cluster's patches, weighted with their coverage.
+struct ClusterState {
+    double coverage = 0.0;
+    SpectrumSum incoming{0.0};   ///< sums until divided by coverage
+    SpectrumSum reflected{0.0};
+    SpectrumSum source{0.0};
+    SpectrumSum albedo{0.0};
+};
+
+std::vector<ClusterState> measure_clusters(const FiniteElementComponent& component, const Clusters& clusters) {
+    std::vector<ClusterState> states(clusters.count);
+    const PatchSources& sources = component.sources();
+    for (std::uint32_t p = 0; p < component.patch_count(); ++p) {
+        const double c = component.coverage(p);
+        if (c == 0.0) continue;
+        ClusterState& s = states[clusters.of_patch[p]];
+        const SpectrumSum incoming = component.incoming(p), albedo(sources.albedo[p]);
+        s.coverage += c;
+        s.incoming += c * incoming;
+        s.reflected += c * albedo * incoming;
+        s.source += c * SpectrumSum(sources.emission[p] + sources.direct[p]);
+        s.albedo += c * albedo;
+    }
+    return states;
+}
+
+/// Square system with a unit diagonal less something non-negative, columns summing to at least 0: elimination
+/// without pivoting is stable. Row-major, augmented with the right-hand side.
+/// \returns false when singular: a pivot is lost to cancellation.
+bool solve(std::vector<double>& a, std::uint32_t n, std::vector<double>& x) {
+    const std::uint32_t width = n + 1;
+    const double least = 64.0 * n * std::numeric_limits<double>::epsilon();
+    for (std::uint32_t k = 0; k < n; ++k) {
+        if (!(a[k * width + k] > least)) return false;
+        for (std::uint32_t i = k + 1; i < n; ++i) {
+            const double f = a[i * width + k] / a[k * width + k];
+            if (f == 0.0) continue;
+            for (std::uint32_t j = k; j < width; ++j) a[i * width + j] -= f * a[k * width + j];
+        }
+    }
+    x.assign(n, 0.0);
+    for (std::uint32_t i = n; i-- > 0;) {
+        double sum = a[i * width + n];
+        for (std::uint32_t j = i + 1; j < n; ++j) sum -= a[i * width + j] * x[j];
+        x[i] = sum / a[i * width + i];
+    }
+    return true;
+}
+
+/// Mean incoming radiance of every cluster in balance, in one channel.
+std::vector<double> solve_channel(const std::vector<ClusterState>& states, const ClusterTransfer& transfer,
+                                  BalanceShape shape, int channel) {
+    const std::uint32_t n = transfer.count;
+    std::vector<double> sent(n), seen(n);
+    for (std::uint32_t j = 0; j < n; ++j)
+        for (std::uint32_t i = 0; i <= n; ++i) {
+            sent[j] += transfer.at(i, j).radiance[channel];
+            seen[j] += transfer.at(i, j).coverage;
+        }
+    // Share of j's flux that reaches i; a dark cluster's by its fragments.
+    const auto share = [&](std::uint32_t i, std::uint32_t j) {
+        if (seen[j] == 0.0) return 0.0;
+        if (shape == BalanceShape::flat || sent[j] == 0.0) return transfer.at(i, j).coverage / seen[j];
+        return transfer.at(i, j).radiance[channel] / sent[j];
+    };
+    std::vector<double> matrix(std::size_t{n} * (n + 1)), flux;
+    for (std::uint32_t i = 0; i < n; ++i) {
+        const ClusterState& s = states[i];
+        const bool flat = shape == BalanceShape::flat || s.incoming[channel] == 0.0;
+        const double albedo = s.coverage == 0.0 ? 0.0
+                              : flat            ? s.albedo[channel] / s.coverage
+                                                : s.reflected[channel] / s.incoming[channel];
+        for (std::uint32_t j = 0; j < n; ++j) matrix[i * (n + 1) + j] = (i == j ? 1.0 : 0.0) - albedo * share(i, j);
+        matrix[i * (n + 1) + n] = s.coverage == 0.0 ? 0.0 : seen[i] * s.source[channel] / s.coverage;
+    }
+    if (!solve(matrix, n, flux))
+        throw UsageError("max albedo: no surface absorbs light of channel " + std::to_string(channel) +
+                         " and none leaves the scene, so it would never fade; accepted: a lower maximum");
+    std::vector<double> incoming(n);
+    for (std::uint32_t i = 0; i < n; ++i) {
+        for (std::uint32_t j = 0; j < n; ++j) incoming[i] += share(i, j) * flux[j];
+        if (seen[i] > 0.0) incoming[i] /= seen[i];
+    }
+    return incoming;
+}
+
+}  // namespace
+
+void balance_energy(FiniteElementComponent& component, const Clusters& clusters, const ClusterTransfer& transfer,
+                    BalanceShape shape) {
+    const std::vector<ClusterState> states = measure_clusters(component, clusters);
+    std::vector<SpectrumSum> target(clusters.count), factor(clusters.count, SpectrumSum(1.0));
+    for (int channel = 0; channel < channel_count; ++channel) {
+        const std::vector<double> incoming = solve_channel(states, transfer, shape, channel);
+        for (std::uint32_t i = 0; i < clusters.count; ++i) {
+            target[i][channel] = incoming[i];
+            const double now = states[i].coverage > 0.0 ? states[i].incoming[channel] / states[i].coverage : 0.0;
+            if (now > 0.0 && incoming[i] > 0.0) factor[i][channel] = incoming[i] / now;
+        }
+    }
+    for (std::uint32_t p = 0; p < component.patch_count(); ++p) {
+        const std::uint32_t i = clusters.of_patch[p];
+        if (shape == BalanceShape::kept) {
+            component.scale_incoming(p, factor[i]);
+            continue;
+        }
+        // What no light has reached stays dark: it may be sealed off from the rest of its cluster.
+        const SpectrumSum reached(glm::greaterThan(component.incoming(p), SpectrumSum(0.0)));
+        component.set_incoming(p, reached * target[i]);
+    }
+}
+
+}  // namespace transillum

@@ -1,0 +1,79 @@
+/// Exchange of radiance between facing neighbours of the transillumination buffer (paper §3, both ways).
+///
+/// Radiance travels as fixed-point integers, scaled by a power of two, so that sums are exact and do not
+/// depend on the order or the thread in which fragments come; and scaling every source by two changes no bit.
+#pragma once
+
+#include "transport/clusters.h"
+
+#include <transillum/base/parallel.h>
+#include <transillum/visibility/transillumination_buffer.h>
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace transillum {
+
+/// Red, green, blue and a count of one, so that a sum carries its coverage along.
+struct alignas(32) FixedRadiance {
+    std::array<std::int64_t, 4> lane{};
+    FixedRadiance& operator+=(const FixedRadiance& other) {
+        for (int i = 0; i < 4; ++i) lane[i] += other.lane[i];
+        return *this;
+    }
+};
+
+/// Sum of received radiance and number of fragments.
+struct Received {
+    SpectrumSum radiance{0.0};
+    double coverage = 0.0;
+};
+
+/// What clusters send each other, in units of radiance times fragments. Senders and receivers are numbered
+/// as in Clusters; receiver `count` is everything outside the scene.
+struct ClusterTransfer {
+    explicit ClusterTransfer(std::uint32_t cluster_count)
+        : count(cluster_count), entries(std::size_t{cluster_count + 1} * cluster_count) {}
+    std::uint32_t count;
+    std::vector<Received> entries;
+    [[nodiscard]] Received& at(std::uint32_t receiver, std::uint32_t sender) { return entries[std::size_t{receiver} * count + sender]; }
+    [[nodiscard]] const Received& at(std::uint32_t receiver, std::uint32_t sender) const { return entries[std::size_t{receiver} * count + sender]; }
+};
+
+class Exchange {
+public:
+    Exchange(std::uint32_t leaf_count, const Clusters& clusters, const Workers& workers);
+
+    /// Radiance that every patch sends from now on. \param most_fragments that a patch may receive until the next `collect`.
+    void set_radiance(const std::vector<Spectrum>& radiance, double most_fragments);
+
+    /// Transfers the radiance of all patches along one bundle, both ways.
+    void transfer(TransilluminationBuffer& buffer, const Bundle& bundle);
+
+    /// Hands out what arrived since the last call, patch by patch, several ranges at once, and starts anew.
+    void collect(const std::function<void(std::uint32_t patch, const Received&)>& take);
+    /// Adds what clusters sent each other since the last call, and what left the scene is receiver `count`.
+    void collect(ClusterTransfer& sum);
+
+    [[nodiscard]] std::uint64_t fragments() const { return fragments_; }
+
+private:
+    struct Partial {
+        std::vector<FixedRadiance> received;
+        std::vector<FixedRadiance> transfer;
+        std::uint64_t fragments = 0;
+    };
+    void exchange_tile(const TileLists& tile, int cluster_row, Partial& partial) const;
+
+    std::uint32_t leaf_count_;
+    const Clusters& clusters_;
+    const Workers& workers_;
+    double unit_ = 1.0;                    ///< radiance of one fixed-point step
+    std::vector<FixedRadiance> radiance_;  ///< one a patch, then the environment
+    std::vector<Partial> partials_;        ///< one a worker
+    std::uint64_t fragments_ = 0;
+};
+
+}  // namespace transillum

@@ -1,0 +1,92 @@
+#include "transport/finite_elements.h"
+
+#include <cmath>
+#include <limits>
+
+namespace transillum {
+
+namespace {
+
+constexpr std::size_t grain = 16384;
+constexpr int least_blocks_for_error = 8;
+/// Weight that an earlier estimate keeps beside the first new fragments.
+constexpr double prior_weight = 0x1p-14;
+
+}  // namespace
+
+FiniteElementComponent::FiniteElementComponent(const PatchSources& sources, const Workers& workers)
+    : sources_(sources), workers_(workers), sums_(sources.albedo.size()), radiance_(sources.albedo.size()) {}
+
+void FiniteElementComponent::average_in(Exchange& exchange, std::uint64_t directions, double weight) {
+    exchange.collect([&](std::uint32_t patch, const Received& block) {
+        if (patch == sums_.size()) {
+            escaped_ += weight * block.radiance;
+            return;
+        }
+        if (block.coverage == 0.0) return;
+        PatchSums& s = sums_[patch];
+        const SpectrumSum r = weight * block.radiance;
+        const double c = weight * block.coverage;
+        s.received += r;
+        s.coverage += c;
+        s.fragments += block.coverage;
+        s.received_squared += r * r;
+        s.received_coverage += r * c;
+        s.coverage_squared += c * c;
+    });
+    weights_ += weight * static_cast<double>(directions);
+    ++blocks_;
+}
+
+void FiniteElementComponent::restart() {
+    for (PatchSums& s : sums_) {
+        if (s.coverage == 0.0) continue;
+        PatchSums start;
+        start.fragments = s.fragments;
+        start.coverage = prior_weight;
+        start.received = s.received / s.coverage * prior_weight;
+        s = start;
+    }
+    escaped_ = SpectrumSum(0.0);
+    weights_ = 0.0;
+    blocks_ = 0;
+}
+
+SpectrumSum FiniteElementComponent::incoming(std::uint32_t patch) const {
+    const PatchSums& s = sums_[patch];
+    return s.coverage > 0.0 ? s.received / s.coverage : SpectrumSum(0.0);
+}
+
+void FiniteElementComponent::scale_incoming(std::uint32_t patch, const SpectrumSum& factor) {
+    PatchSums& s = sums_[patch];
+    s.received *= factor;
+    s.received_squared *= factor * factor;
+    s.received_coverage *= factor;
+}
+
+void FiniteElementComponent::set_incoming(std::uint32_t patch, const SpectrumSum& incoming) {
+    PatchSums& s = sums_[patch];
+    s.received = incoming * s.coverage;
+}
+
+SpectrumSum FiniteElementComponent::incoming_variance(std::uint32_t patch) const {
+    const PatchSums& s = sums_[patch];
+    if (blocks_ < least_blocks_for_error || s.coverage == 0.0)
+        return SpectrumSum(std::numeric_limits<double>::quiet_NaN());
+    // Linearised variance of a ratio of sums: sum of (w C)^2 (x_b - x)^2 over (sum of w C)^2.
+    const SpectrumSum x = incoming(patch);
+    const SpectrumSum spread = s.received_squared - 2.0 * x * s.received_coverage + x * x * s.coverage_squared;
+    return glm::max(spread, SpectrumSum(0.0)) / (s.coverage * s.coverage) * (blocks_ / (blocks_ - 1.0));
+}
+
+const std::vector<Spectrum>& FiniteElementComponent::update_radiance() {
+    workers_.for_ranges(sums_.size(), grain, [&](std::size_t begin, std::size_t end, int) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const SpectrumSum reflected = SpectrumSum(sources_.albedo[i]) * incoming(static_cast<std::uint32_t>(i));
+            radiance_[i] = sources_.emission[i] + sources_.direct[i] + Spectrum(reflected);
+        }
+    });
+    return radiance_;
+}
+
+}  // namespace transillum

@@ -1,0 +1,182 @@
+// The loop of paper §2.2 for the finite-element component:
+//
+//   L^r   = T*_fr (L^e + L~(m-1))          transfer, along one bundle and both ways
+//   L~'(m) = projection of L^r             Exchange, per patch
+//   L~(m)  = average of the projections    FiniteElementComponent::average_in
+//
+// L~ is refreshed after blocks of directions, and balanced at powers of two (design 4.4).
+#include <transillum/base/error.h>
+#include <transillum/transport/iterate.h>
+
+#include "transport/clusters.h"
+#include "transport/energy_balance.h"
+#include "transport/exchange.h"
+#include "transport/finite_elements.h"
+
+#include <bit>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+
+namespace transillum {
+
+namespace {
+
+constexpr std::uint64_t first_balance = 8;
+/// Up to here every phase starts its average anew: what was summed came from too early an estimate.
+constexpr std::uint64_t last_restart = 64;
+
+/// Directions until the estimate is refreshed: one at a time up to 8, then four blocks an octave.
+std::uint64_t block_length(std::uint64_t done, Averaging averaging) {
+    if (averaging == Averaging::paper || done < first_balance) return 1;
+    return std::bit_floor(done) / 4;
+}
+
+class Iteration {
+public:
+    Iteration(const SurfaceMesh& mesh, const PatchHierarchy& patches, const PatchSources& sources,
+              const IterationOptions& options, const Workers& workers, Monitor& monitor)
+        : mesh_(mesh),
+          patches_(patches),
+          options_(options),
+          monitor_(monitor),
+          buffer_(mesh, patches, options.pixel_size),
+          clusters_(options.averaging == Averaging::balanced ? make_clusters(mesh, patches) : Clusters{}),
+          transfer_(clusters_.count),
+          exchange_(patches.leaf_count, clusters_, workers),
+          component_(sources, workers) {
+        for (std::uint32_t r = 0; r < mesh.triangles.size(); ++r) {
+            leaf_area_.push_back(leaf_area(mesh, patches, r));
+            total_area_ += 2.0 * area_of(mesh, r);
+        }
+    }
+
+    TransportResult run() {
+        while (done_ < options_.iterations && !stopped()) {
+            begin_block();
+            const std::uint64_t block = block_length(done_, options_.averaging);
+            exchange_.set_radiance(component_.update_radiance(), most_fragments(block));
+            std::uint64_t in_block = 0;
+            do {
+                exchange_.transfer(buffer_, sample_bundle(static_cast<std::uint32_t>(done_ + in_block), options_.seed));
+                ++in_block;
+                monitor_.progress({"transport", done_ + in_block, options_.iterations, relative_error_});
+            } while (in_block < block && done_ + in_block < options_.iterations && !stopped());
+            end_block(in_block);
+        }
+        return finish();
+    }
+
+private:
+    /// A patch is a planar triangle: it covers a pixel at most once a direction.
+    double most_fragments(std::uint64_t block) const {
+        const double diagonal_pixels = std::min(16384.0, scene_diagonal() / buffer_.pixel_size() + 4.0);
+        // The environment is met twice a pixel.
+        return 2.0 * diagonal_pixels * diagonal_pixels * static_cast<double>(block);
+    }
+
+    double scene_diagonal() const {
+        glm::dvec3 low(mesh_.positions.front()), high(low);
+        for (const glm::dvec3& p : mesh_.positions) {
+            low = glm::min(low, p);
+            high = glm::max(high, p);
+        }
+        return glm::length(high - low);
+    }
+
+    void begin_block() {
+        if (!balances_at(done_) || done_ > last_restart) return;
+        component_.restart();
+        transfer_ = ClusterTransfer(clusters_.count);
+    }
+
+    void end_block(std::uint64_t directions) {
+        const bool balanced = options_.averaging == Averaging::balanced;
+        done_ += directions;
+        // Weights in proportion to a direction's number: step 2/(m + 1). The paper's: 1/m.
+        component_.average_in(exchange_, directions, balanced ? static_cast<double>(done_) : 1.0);
+        if (balanced) exchange_.collect(transfer_);
+        if (balances_at(done_)) balance();
+        if (done_ > last_restart) relative_error_ = estimate_error();
+    }
+
+    bool balances_at(std::uint64_t done) const {
+        return options_.averaging == Averaging::balanced && done >= first_balance && std::has_single_bit(done);
+    }
+
+    void balance() {
+        balance_energy(component_, clusters_, transfer_,
+                       done_ == first_balance ? BalanceShape::flat : BalanceShape::kept);
+    }
+
+    /// Root mean square error over the mean, both weighted with area, of the luminance.
+    double estimate_error() const {
+        double variance = 0.0, mean = 0.0;
+        for (std::uint32_t p = 0; p < component_.patch_count(); ++p) {
+            if (component_.coverage(p) == 0.0) continue;
+            const double area = area_of_patch(p);
+            mean += area * luminance(component_.incoming(p));
+            variance += area * luminance(component_.incoming_variance(p));
+        }
+        return mean > 0.0 ? std::sqrt(variance * total_area_) / mean : variance * 0.0;
+    }
+
+    double area_of_patch(std::uint32_t patch) const {
+        return leaf_area_[patches_.root_of_leaf[patches_.leaf_of_patch(patch)]];
+    }
+
+    bool stopped() {
+        if (monitor_.stop_requested()) return interrupted_ = true;
+        const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
+        return (options_.seconds > 0.0 && elapsed.count() >= options_.seconds) ||
+               (options_.target_error > 0.0 && relative_error_ <= options_.target_error);
+    }
+
+    TransportResult finish() {
+        // Between powers of two the last directions are not in balance yet.
+        if (options_.averaging == Averaging::balanced && done_ > first_balance && !balances_at(done_)) balance();
+        TransportResult result;
+        const std::uint32_t n = component_.patch_count();
+        result.irradiance.resize(n);
+        result.standard_error.resize(n);
+        result.coverage.resize(n);
+        for (std::uint32_t p = 0; p < n; ++p) {
+            result.irradiance[p] = Spectrum(std::numbers::pi * component_.incoming(p));
+            result.standard_error[p] = Spectrum(std::numbers::pi * glm::sqrt(component_.incoming_variance(p)));
+            result.coverage[p] = static_cast<float>(component_.fragments(p));
+        }
+        result.iterations = done_;
+        result.relative_error = estimate_error();
+        result.interrupted = interrupted_;
+        result.fragments = exchange_.fragments();
+        // A direction sees a patch of area A under A/2 on average.
+        const double pixel_area = buffer_.pixel_size() * buffer_.pixel_size();
+        result.escaped = component_.escaped() * (2.0 * std::numbers::pi * pixel_area);
+        return result;
+    }
+
+    const SurfaceMesh& mesh_;
+    const PatchHierarchy& patches_;
+    const IterationOptions& options_;
+    Monitor& monitor_;
+    TransilluminationBuffer buffer_;
+    Clusters clusters_;
+    ClusterTransfer transfer_;
+    Exchange exchange_;
+    FiniteElementComponent component_;
+    std::vector<double> leaf_area_;  ///< one a root
+    double total_area_ = 0.0;        ///< of both sides
+    std::uint64_t done_ = 0;
+    double relative_error_ = std::numeric_limits<double>::quiet_NaN();
+    bool interrupted_ = false;
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace
+
+TransportResult iterate(const SurfaceMesh& mesh, const PatchHierarchy& patches, const PatchSources& sources,
+                        const IterationOptions& options, const Workers& workers, Monitor& monitor) {
+    return Iteration(mesh, patches, sources, options, workers, monitor).run();
+}
+
+}  // namespace transillum

@@ -1,0 +1,122 @@
+/// Watertight scan conversion, shared by the transillumination buffer and the hemicube.
+///
+/// Vertices are snapped to 1/256 of a pixel and edges are evaluated in integers, with the top-left rule:
+/// a pixel centre that lies on the common edge of two triangles belongs to exactly one of them.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <limits>
+
+namespace transillum {
+
+inline constexpr int sub_pixel_bits = 8;
+/// Windows have at most this many pixels a side, so that edge values across a tile fit 32 bits.
+inline constexpr int max_window = 1 << 14;
+inline constexpr int tile_size = 64;
+
+/// A vertex in units of 1/256 pixel; pixel centres lie at multiples of 256.
+struct FixedPoint {
+    std::int32_t x = 0, y = 0;
+};
+
+/// Twice the signed area, in squares of 1/256 pixel.
+[[nodiscard]] inline std::int64_t twice_area(const FixedPoint& a, const FixedPoint& b, const FixedPoint& c) {
+    return std::int64_t{b.x - a.x} * (c.y - a.y) - std::int64_t{b.y - a.y} * (c.x - a.x);
+}
+
+/// First pixel centre at or after a coordinate.
+[[nodiscard]] inline std::int32_t first_centre(std::int32_t fixed) {
+    return (fixed + (1 << sub_pixel_bits) - 1) >> sub_pixel_bits;
+}
+
+/// Pixels [x0, x1) x [y0, y1), at most tile_size a side.
+struct TileRect {
+    std::int32_t x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+};
+
+/// Walks where one edge crosses the pixel rows: quotient and remainder of a division stepped row by row.
+class EdgeWalk {
+public:
+    /// Never constrains: its crossing stays at `x`.
+    explicit EdgeWalk(std::int32_t x) : quotient_(x) {}
+    /// Crossing at x + floor((numerator + row * step) / divisor), divisor > 0.
+    EdgeWalk(std::int32_t x, std::int32_t numerator, std::int32_t step, std::int32_t divisor)
+        : divisor_(divisor), step_quotient_(floor_div(step, divisor)) {
+        const std::int32_t quotient = floor_div(numerator, divisor);
+        quotient_ = x + quotient;
+        remainder_ = numerator - quotient * divisor;
+        step_remainder_ = step - step_quotient_ * divisor;
+    }
+    [[nodiscard]] std::int32_t crossing() const { return quotient_; }
+    void next_row() {
+        quotient_ += step_quotient_;
+        remainder_ += step_remainder_;
+        const std::int32_t carry = remainder_ >= divisor_ ? 1 : 0;
+        quotient_ += carry;
+        remainder_ -= carry * divisor_;
+    }
+
+private:
+    static std::int32_t floor_div(std::int32_t a, std::int32_t b) { return a / b - (a % b < 0 ? 1 : 0); }
+
+    std::int32_t divisor_ = 1, quotient_ = 0, remainder_ = 0, step_quotient_ = 0, step_remainder_ = 0;
+};
+
+/// Calls `span(y, x0, x1)` for every row of `rect` where pixel centres [x0, x1) lie in the triangle.
+/// \pre twice_area(v[0], v[1], v[2]) > 0
+template <class Span>
+inline void scan_convert(const std::array<FixedPoint, 3>& v, const TileRect& rect, Span&& span) {
+    const auto [left, right] = std::minmax({v[0].x, v[1].x, v[2].x});
+    const auto [low, high] = std::minmax({v[0].y, v[1].y, v[2].y});
+    const std::int32_t x_begin = std::max(rect.x0, first_centre(left));
+    const std::int32_t x_end = std::min(rect.x1, (right >> sub_pixel_bits) + 1);
+    const std::int32_t y_begin = std::max(rect.y0, first_centre(low));
+    std::int32_t y_first = y_begin;
+    std::int32_t y_end = std::min(rect.y1, (high >> sub_pixel_bits) + 1);
+    if (x_begin >= x_end || y_begin >= y_end) return;
+
+    std::array<EdgeWalk, 2> starts{EdgeWalk(x_begin), EdgeWalk(x_begin)};
+    std::array<EdgeWalk, 2> ends{EdgeWalk(x_end), EdgeWalk(x_end)};
+    int start_count = 0, end_count = 0;
+    const std::int32_t width = x_end - 1 - x_begin;
+    const std::int32_t height = y_end - 1 - y_begin;
+    for (int i = 0; i < 3; ++i) {
+        const FixedPoint& p = v[i];
+        const FixedPoint& q = v[i == 2 ? 0 : i + 1];
+        // Inside: a x + b y + c >= 0. At pixel centres the edge function changes in steps of 256, so it
+        // may be divided by 256, rounding down, without changing its sign.
+        const std::int32_t a = p.y - q.y;
+        const std::int32_t b = q.x - p.x;
+        const bool owns_its_points = a > 0 || (a == 0 && b > 0);
+        const std::int64_t at_origin = -(std::int64_t{a} * p.x + std::int64_t{b} * p.y) - (owns_its_points ? 0 : 1);
+        const std::int64_t c = (at_origin >> sub_pixel_bits) + std::int64_t{a} * x_begin + std::int64_t{b} * y_begin;
+        const std::int64_t dx = std::int64_t{a} * width;
+        const std::int64_t dy = std::int64_t{b} * height;
+        if (c + std::min<std::int64_t>(dx, 0) + std::min<std::int64_t>(dy, 0) >= 0) continue;
+        if (c + std::max<std::int64_t>(dx, 0) + std::max<std::int64_t>(dy, 0) < 0) return;
+        // The edge crosses this rectangle, so its values here are below 2 * 64 * 2^22.
+        const auto c32 = static_cast<std::int32_t>(c);
+        if (a > 0) {
+            // x >= ceil(-(b y + c) / a)
+            starts[start_count++] = EdgeWalk(x_begin, a - 1 - c32, -b, a);
+        } else if (a < 0) {
+            // x < floor((b y + c) / -a) + 1
+            ends[end_count++] = EdgeWalk(x_begin, c32 - a, b, -a);
+        } else if (b > 0) {
+            y_first = y_begin + (b - 1 - c32) / b;
+        } else {
+            y_end = y_begin + c32 / -b + 1;
+        }
+    }
+    for (std::int32_t y = y_begin; y < y_end; ++y) {
+        const std::int32_t x0 = std::max({x_begin, starts[0].crossing(), starts[1].crossing()});
+        const std::int32_t x1 = std::min({x_end, ends[0].crossing(), ends[1].crossing()});
+        if (x0 < x1 && y >= y_first) span(y, x0, x1);
+        for (EdgeWalk& e : starts) e.next_row();
+        for (EdgeWalk& e : ends) e.next_row();
+    }
+}
+
+}  // namespace transillum

@@ -1,0 +1,256 @@
+#include <transillum/base/error.h>
+#include <transillum/base/sampling.h>
+#include <transillum/visibility/transillumination_buffer.h>
+
+#include "visibility/scan_convert.h"
+
+#include <glm/geometric.hpp>
+
+#include <bit>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <string>
+
+namespace transillum {
+
+namespace {
+
+constexpr std::uint32_t triangles_a_bin_set = 1u << 14;
+constexpr double fixed_unit = 1 << sub_pixel_bits;
+
+struct Bounds {
+    glm::dvec3 low{std::numeric_limits<double>::infinity()};
+    glm::dvec3 high{-std::numeric_limits<double>::infinity()};
+};
+
+Bounds bounds_of(const std::vector<glm::dvec3>& points, const glm::dmat3& axes) {
+    Bounds b;
+    for (const glm::dvec3& p : points) {
+        const glm::dvec3 q = p * axes;
+        b.low = glm::min(b.low, q);
+        b.high = glm::max(b.high, q);
+    }
+    return b;
+}
+
+/// A quantity that is linear over the window.
+struct Plane {
+    double at_reference, dx, dy;
+};
+
+/// Short lists, nearly sorted: insertion sort.
+void sort_fragments(Fragment* begin, Fragment* end) {
+    for (Fragment* i = begin + 1; i < end; ++i) {
+        const Fragment f = *i;
+        Fragment* j = i;
+        for (; j > begin && j[-1] > f; --j) *j = j[-1];
+        *j = f;
+    }
+}
+
+}  // namespace
+
+/// A tile being filled. Fragments are drawn in the triangles' order, then sorted by pixel and by depth.
+struct TransilluminationBuffer::Scratch {
+    TileRect rect;
+    std::vector<Fragment> drawn, sorted;
+    std::vector<std::uint16_t> pixel;
+    std::vector<std::uint32_t> first = std::vector<std::uint32_t>(tile_size * tile_size + 1);
+    std::size_t count = 0;
+
+    void reserve_row() {
+        if (drawn.size() >= count + tile_size) return;
+        drawn.resize(std::max<std::size_t>(2 * drawn.size(), 8 * tile_size * tile_size));
+        pixel.resize(drawn.size());
+    }
+};
+
+Bundle sample_bundle(std::uint32_t index, std::uint64_t seed) {
+    const auto u = [&](int dimension) { return sobol_owen(index, dimension, seed); };
+    const glm::dmat3 frame = frame_about(uniform_direction(u(0), u(1)));
+    const double turn = 2.0 * std::numbers::pi * u(2);
+    const double c = std::cos(turn), s = std::sin(turn);
+    return {{c * frame[0] + s * frame[1], c * frame[1] - s * frame[0], frame[2]}, u(3), u(4), static_cast<int>(256.0 * u(5))};
+}
+
+double pixel_size_for(const SurfaceMesh& mesh, int resolution) {
+    if (resolution < 16 || resolution > 8192)
+        throw UsageError("resolution " + std::to_string(resolution) + "; accepted: 16 to 8192 pixels");
+    const Bounds b = bounds_of(mesh.positions, glm::dmat3(1.0));
+    const glm::dvec3 size = b.high - b.low;
+    // The mean width of a box over all directions is half the sum of its edges.
+    return (size.x + size.y + size.z) / 2.0 / resolution;
+}
+
+TransilluminationBuffer::TransilluminationBuffer(const SurfaceMesh& mesh, const PatchHierarchy& patches,
+                                                 double pixel_size)
+    : mesh_(mesh), patches_(patches), pixel_size_(pixel_size), projected_(mesh.positions.size()) {
+    const Bounds b = bounds_of(mesh.positions, glm::dmat3(1.0));
+    const double widest = glm::length(b.high - b.low) / pixel_size;
+    if (!(widest < max_window - 2))
+        throw UsageError("pixel size " + std::to_string(pixel_size) + ": the window would be " +
+                         std::to_string(widest) + " pixels wide; accepted: at most " + std::to_string(max_window));
+    bins_.resize((mesh.triangles.size() + triangles_a_bin_set - 1) / triangles_a_bin_set);
+}
+
+void TransilluminationBuffer::project(const Bundle& bundle, const Workers& workers) {
+    constexpr std::size_t grain = 4096;
+    std::vector<Bounds> partial((mesh_.positions.size() + grain - 1) / grain);
+    workers.for_ranges(partial.size(), 1, [&](std::size_t begin, std::size_t end, int) {
+        for (std::size_t r = begin; r < end; ++r) {
+            Bounds b;
+            for (std::size_t i = r * grain; i < std::min((r + 1) * grain, mesh_.positions.size()); ++i) {
+                const glm::dvec3 q = mesh_.positions[i] * bundle.frame;
+                b.low = glm::min(b.low, q);
+                b.high = glm::max(b.high, q);
+            }
+            partial[r] = b;
+        }
+    });
+    Bounds b;
+    for (const Bounds& p : partial) {
+        b.low = glm::min(b.low, p.low);
+        b.high = glm::max(b.high, p.high);
+    }
+    const double scale = fixed_unit / pixel_size_;
+    const glm::dvec2 shift = glm::dvec2(bundle.offset_x, bundle.offset_y) * fixed_unit - glm::dvec2(b.low) * scale;
+    width_ = static_cast<int>(std::ceil((b.high.x - b.low.x) / pixel_size_)) + 2;
+    height_ = static_cast<int>(std::ceil((b.high.y - b.low.y) / pixel_size_)) + 2;
+    tiles_x_ = (width_ + tile_size - 1) / tile_size;
+    tiles_y_ = (height_ + tile_size - 1) / tile_size;
+    workers.for_ranges(mesh_.positions.size(), grain, [&](std::size_t begin, std::size_t end, int) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const glm::dvec3 q = mesh_.positions[i] * bundle.frame;
+            projected_[i] = {static_cast<std::int32_t>(std::lrint(q.x * scale + shift.x)),
+                             static_cast<std::int32_t>(std::lrint(q.y * scale + shift.y)),
+                             static_cast<float>(q.z - b.low.z)};
+        }
+    });
+}
+
+void TransilluminationBuffer::bin(const Workers& workers) {
+    const std::size_t tiles = static_cast<std::size_t>(tiles_x_) * tiles_y_;
+    workers.for_ranges(bins_.size(), 1, [&](std::size_t begin, std::size_t end, int) {
+        for (std::size_t set = begin; set < end; ++set) {
+            Bins& bins = bins_[set];
+            if (bins.size() < tiles) bins.resize(tiles);
+            for (auto& bin : bins) bin.clear();
+            const std::size_t last = std::min<std::size_t>((set + 1) * triangles_a_bin_set, mesh_.triangles.size());
+            for (std::size_t t = set * triangles_a_bin_set; t < last; ++t) {
+                const auto& v = mesh_.triangles[t].vertices;
+                const ProjectedVertex &a = projected_[v[0]], &b = projected_[v[1]], &c = projected_[v[2]];
+                const int x0 = first_centre(std::min({a.x, b.x, c.x}));
+                const int x1 = std::max({a.x, b.x, c.x}) >> sub_pixel_bits;
+                const int y0 = first_centre(std::min({a.y, b.y, c.y}));
+                const int y1 = std::max({a.y, b.y, c.y}) >> sub_pixel_bits;
+                if (x0 > x1 || y0 > y1) continue;  // between pixel centres
+                for (int y = y0 / tile_size; y <= y1 / tile_size; ++y)
+                    for (int x = x0 / tile_size; x <= x1 / tile_size; ++x)
+                        bins[static_cast<std::size_t>(y) * tiles_x_ + x].push_back(static_cast<std::uint32_t>(t));
+            }
+        }
+    });
+}
+
+void TransilluminationBuffer::draw(std::uint32_t root, const TileRect& rect, Scratch& scratch) const {
+    const auto& vertices = mesh_.triangles[root].vertices;
+    std::array<const ProjectedVertex*, 3> p;
+    for (int i = 0; i < 3; ++i) p[i] = &projected_[vertices[i]];
+    std::array<FixedPoint, 3> fixed{{{p[0]->x, p[0]->y}, {p[1]->x, p[1]->y}, {p[2]->x, p[2]->y}}};
+    const std::int64_t area = twice_area(fixed[0], fixed[1], fixed[2]);
+    if (area == 0) return;
+
+    // Planes through the vertices in the order of their numbers: triangles on the same three vertices then
+    // have the same depths to the last bit.
+    std::array<int, 3> order{0, 1, 2};
+    if (vertices[order[0]] > vertices[order[1]]) std::swap(order[0], order[1]);
+    if (vertices[order[1]] > vertices[order[2]]) std::swap(order[1], order[2]);
+    if (vertices[order[0]] > vertices[order[1]]) std::swap(order[0], order[1]);
+    const ProjectedVertex &a = *p[order[0]], &b = *p[order[1]], &c = *p[order[2]];
+    const double bx = b.x - a.x, by = b.y - a.y, cx = c.x - a.x, cy = c.y - a.y;
+    const double scale = fixed_unit / (bx * cy - cx * by);
+    const double zb = double(b.depth) - a.depth, zc = double(c.depth) - a.depth;
+    const Plane depth{a.depth, (zb * cy - zc * by) * scale, (zc * bx - zb * cx) * scale};
+    const float nearest = std::min({a.depth, b.depth, c.depth});
+    const float furthest = std::max({a.depth, b.depth, c.depth});
+    const double reference_x = a.x / fixed_unit, reference_y = a.y / fixed_unit;
+
+    // Barycentric coordinates of the second and third vertex, about the first.
+    const double per_area = fixed_unit / static_cast<double>(area);
+    const Plane b1{0.0, (fixed[2].y - fixed[0].y) * per_area, (fixed[0].x - fixed[2].x) * per_area};
+    const Plane b2{0.0, (fixed[0].y - fixed[1].y) * per_area, (fixed[1].x - fixed[0].x) * per_area};
+    const double first_x = fixed[0].x / fixed_unit, first_y = fixed[0].y / fixed_unit;
+
+    // The window's axes and the direction are right-handed: a positive area is seen from ahead.
+    const std::uint32_t facing = area > 0 ? 0x80000000u : 0u;
+    const RootPatches& patches = patches_.roots[root];
+    if (area < 0) std::swap(fixed[1], fixed[2]);
+
+    scan_convert(fixed, rect, [&](std::int32_t y, std::int32_t x0, std::int32_t x1) {
+        scratch.reserve_row();
+        const int length = x1 - x0;
+        const int row = (y - rect.y0) * (rect.x1 - rect.x0) + (x0 - rect.x0);
+        Fragment* const out = scratch.drawn.data() + scratch.count;
+        std::uint16_t* const pixel = scratch.pixel.data() + scratch.count;
+        const auto z0 = static_cast<float>(depth.at_reference + depth.dx * (x0 - reference_x) + depth.dy * (y - reference_y));
+        const auto dz = static_cast<float>(depth.dx);
+        const auto key = [&](int i, std::uint32_t leaf) {
+            const float z = std::clamp(z0 + dz * static_cast<float>(i), nearest, furthest);
+            return (std::uint64_t{std::bit_cast<std::uint32_t>(z)} << 32) | facing | leaf;
+        };
+        if (patches.level == 0) {
+            for (int i = 0; i < length; ++i) out[i] = key(i, patches.first_leaf);
+        } else {
+            const auto s0 = static_cast<float>(b1.dx * (x0 - first_x) + b1.dy * (y - first_y));
+            const auto t0 = static_cast<float>(b2.dx * (x0 - first_x) + b2.dy * (y - first_y));
+            const auto ds = static_cast<float>(b1.dx), dt = static_cast<float>(b2.dx);
+            for (int i = 0; i < length; ++i) {
+                const auto step = static_cast<float>(i);
+                out[i] = key(i, patches.first_leaf + leaf_in_root(patches.level, s0 + ds * step, t0 + dt * step));
+            }
+        }
+        for (int i = 0; i < length; ++i) {
+            pixel[i] = static_cast<std::uint16_t>(row + i);
+            ++scratch.first[row + i + 1];
+        }
+        scratch.count += length;
+    });
+}
+
+void TransilluminationBuffer::fill_tile(int tile, Scratch& scratch) const {
+    const int x0 = tile % tiles_x_ * tile_size, y0 = tile / tiles_x_ * tile_size;
+    scratch.rect = {x0, y0, std::min(x0 + tile_size, width_), std::min(y0 + tile_size, height_)};
+    const int pixels = (scratch.rect.x1 - x0) * (scratch.rect.y1 - y0);
+    std::fill_n(scratch.first.begin(), pixels + 1, 0u);
+    scratch.count = 0;
+    for (const Bins& bins : bins_)
+        for (const std::uint32_t root : bins[tile]) draw(root, scratch.rect, scratch);
+    if (scratch.count == 0) return;
+
+    // Counting sort by pixel. While filling, first[i] runs from the start of list i to its end, which is
+    // the start of list i + 1: shifting by one restores it.
+    auto& first = scratch.first;
+    std::partial_sum(first.begin(), first.begin() + pixels + 1, first.begin());
+    if (scratch.sorted.size() < scratch.count) scratch.sorted.resize(scratch.drawn.size());
+    for (std::size_t i = 0; i < scratch.count; ++i) scratch.sorted[first[scratch.pixel[i]]++] = scratch.drawn[i];
+    std::copy_backward(first.begin(), first.begin() + pixels, first.begin() + pixels + 1);
+    first[0] = 0;
+    for (int i = 0; i < pixels; ++i) sort_fragments(&scratch.sorted[first[i]], scratch.sorted.data() + first[i + 1]);
+}
+
+void TransilluminationBuffer::trace(const Bundle& bundle, const Workers& workers, const Visitor& visit) {
+    project(bundle, workers);
+    bin(workers);
+    std::vector<Scratch> scratch(workers.count());
+    workers.for_ranges(static_cast<std::size_t>(tiles_x_) * tiles_y_, 1, [&](std::size_t begin, std::size_t end, int worker) {
+        for (std::size_t tile = begin; tile < end; ++tile) {
+            Scratch& s = scratch[worker];
+            fill_tile(static_cast<int>(tile), s);
+            if (s.count == 0) continue;
+            visit({s.rect.x1 - s.rect.x0, s.rect.y1 - s.rect.y0, s.rect.y0, s.first, {s.sorted.data(), s.count}}, worker);
+        }
+    });
+}
+
+}  // namespace transillum
