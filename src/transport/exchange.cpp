@@ -13,7 +13,7 @@ constexpr int cluster_row_stride = 4;
 constexpr int cluster_shift = 8;
 
 FixedRadiance shifted(const FixedRadiance& r) {
-    return {{r.lane[0] >> cluster_shift, r.lane[1] >> cluster_shift, r.lane[2] >> cluster_shift, r.lane[3]}};
+    return {FixedRadiance::Lanes{r.lane[0] >> cluster_shift, r.lane[1] >> cluster_shift, r.lane[2] >> cluster_shift, r.lane[3]}};
 }
 
 Received in_units(const FixedRadiance& sum, double unit) {
@@ -28,7 +28,7 @@ Exchange::Exchange(std::uint32_t leaf_count, const Clusters& clusters, const Wor
         p.received.resize(radiance_.size());
         p.transfer.resize(std::size_t{clusters.count + 1} * (clusters.count + 1));
     }
-    radiance_.back().lane = {0, 0, 0, 1};  // the environment is dark, and is seen
+    radiance_.back().lane = FixedRadiance::Lanes{0, 0, 0, 1};  // the environment is dark, and is seen
 }
 
 void Exchange::set_radiance(const std::vector<Spectrum>& radiance, double most_fragments) {
@@ -43,7 +43,7 @@ void Exchange::set_radiance(const std::vector<Spectrum>& radiance, double most_f
     workers_.for_ranges(radiance.size(), 16384, [&](std::size_t begin, std::size_t end, int) {
         for (std::size_t i = begin; i < end; ++i) {
             const auto fixed = [&](float x) { return std::llrint(x * scale); };
-            radiance_[i].lane = {fixed(radiance[i].x), fixed(radiance[i].y), fixed(radiance[i].z), 1};
+            radiance_[i].lane = FixedRadiance::Lanes{fixed(radiance[i].x), fixed(radiance[i].y), fixed(radiance[i].z), 1};
         }
     });
 }
@@ -53,27 +53,37 @@ void Exchange::exchange_tile(const TileLists& tile, int cluster_row, Partial& pa
     FixedRadiance* const received = partial.received.data();
     const FixedRadiance* const radiance = radiance_.data();
     const std::uint8_t* const cluster = clusters_.of_patch.data();
+    const std::uint32_t n = clusters_.count + 1;
+    FixedRadiance escaped;
     for (int row = 0; row < tile.height; ++row) {
         const bool sampled = cluster_row >= 0 && (tile.row0 + row) % cluster_row_stride == cluster_row;
         for (int i = row * tile.width; i < (row + 1) * tile.width; ++i) {
             const Fragment* f = tile.fragments.data() + tile.first[i];
             const Fragment* const end = tile.fragments.data() + tile.first[i + 1];
             if (f == end) continue;
-            std::uint32_t behind = outside;
-            for (;; ++f) {
-                const std::uint32_t ahead = f == end ? outside : lower_patch(*f, leaf_count_);
+            const auto tell_clusters = [&](std::uint32_t a, std::uint32_t b) {
+                partial.transfer[cluster[a] * n + cluster[b]] += shifted(radiance[b]);
+                partial.transfer[cluster[b] * n + cluster[a]] += shifted(radiance[a]);
+            };
+            // The first and the last of a list face the environment.
+            const std::uint32_t first = lower_patch(*f, leaf_count_);
+            received[first] += radiance[outside];
+            escaped += radiance[first];
+            if (sampled) tell_clusters(outside, first);
+            std::uint32_t behind = upper_patch(*f, leaf_count_);
+            for (++f; f != end; ++f) {
+                const std::uint32_t ahead = lower_patch(*f, leaf_count_);
                 received[ahead] += radiance[behind];
                 received[behind] += radiance[ahead];
-                if (sampled) {
-                    const std::uint32_t a = cluster[ahead], b = cluster[behind], n = clusters_.count + 1;
-                    partial.transfer[a * n + b] += shifted(radiance[behind]);
-                    partial.transfer[b * n + a] += shifted(radiance[ahead]);
-                }
-                if (f == end) break;
+                if (sampled) tell_clusters(ahead, behind);
                 behind = upper_patch(*f, leaf_count_);
             }
+            received[behind] += radiance[outside];
+            escaped += radiance[behind];
+            if (sampled) tell_clusters(behind, outside);
         }
     }
+    received[outside] += escaped;
     partial.fragments += tile.fragments.size();
 }
 

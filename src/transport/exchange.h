@@ -9,18 +9,18 @@
 #include <transillum/base/parallel.h>
 #include <transillum/visibility/transillumination_buffer.h>
 
-#include <array>
 #include <cstdint>
 #include <functional>
 #include <vector>
 
 namespace transillum {
 
-/// Red, green, blue and a count of one, so that a sum carries its coverage along.
+/// Red, green, blue and a count of one, so that a sum carries its coverage along. Half a cache line.
 struct alignas(32) FixedRadiance {
-    std::array<std::int64_t, 4> lane{};
+    using Lanes = std::int64_t __attribute__((vector_size(32)));
+    Lanes lane{};
     FixedRadiance& operator+=(const FixedRadiance& other) {
-        for (int i = 0; i < 4; ++i) lane[i] += other.lane[i];
+        lane += other.lane;
         return *this;
     }
 };

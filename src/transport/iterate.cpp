@@ -118,7 +118,7 @@ private:
             mean += area * luminance(component_.incoming(p));
             variance += area * luminance(component_.incoming_variance(p));
         }
-        return mean > 0.0 ? std::sqrt(variance * total_area_) / mean : variance * 0.0;
+        return mean > 0.0 ? std::sqrt(variance * total_area_) / mean : 0.0;
     }
 
     double area_of_patch(std::uint32_t patch) const {
@@ -142,11 +142,14 @@ private:
         result.coverage.resize(n);
         for (std::uint32_t p = 0; p < n; ++p) {
             result.irradiance[p] = Spectrum(std::numbers::pi * component_.incoming(p));
-            result.standard_error[p] = Spectrum(std::numbers::pi * glm::sqrt(component_.incoming_variance(p)));
+            const SpectrumSum variance = component_.incoming_variance(p);
+            result.standard_error[p] =
+                is_finite(variance) ? Spectrum(std::numbers::pi * glm::sqrt(variance)) : result.irradiance[p];
             result.coverage[p] = static_cast<float>(component_.fragments(p));
         }
         result.iterations = done_;
-        result.relative_error = estimate_error();
+        const double error = estimate_error();
+        result.relative_error = std::isfinite(error) ? error : 1.0;
         result.interrupted = interrupted_;
         result.fragments = exchange_.fragments();
         // A direction sees a patch of area A under A/2 on average.

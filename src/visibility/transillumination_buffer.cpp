@@ -6,7 +6,6 @@
 
 #include <glm/geometric.hpp>
 
-#include <bit>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -18,6 +17,9 @@ namespace {
 
 constexpr std::uint32_t triangles_a_bin_set = 1u << 14;
 constexpr double fixed_unit = 1 << sub_pixel_bits;
+/// Depths are 63-bit integers, of which a fragment keeps the upper 31. The margin takes up rounding.
+constexpr double depth_margin = 0x1p40;
+constexpr std::uint64_t depth_bits = 0xffffffff00000000u;
 
 struct Bounds {
     glm::dvec3 low{std::numeric_limits<double>::infinity()};
@@ -34,22 +36,13 @@ Bounds bounds_of(const std::vector<glm::dvec3>& points, const glm::dmat3& axes) 
     return b;
 }
 
-/// A quantity that is linear over the window.
-struct Plane {
-    double at_reference, dx, dy;
-};
-
-/// Short lists, nearly sorted: insertion sort.
-void sort_fragments(Fragment* begin, Fragment* end) {
-    for (Fragment* i = begin + 1; i < end; ++i) {
-        const Fragment f = *i;
-        Fragment* j = i;
-        for (; j > begin && j[-1] > f; --j) *j = j[-1];
-        *j = f;
-    }
-}
-
 }  // namespace
+
+/// A quantity that is linear over the window.
+struct TransilluminationBuffer::Plane {
+    double x0, y0, value, dx, dy;
+    [[nodiscard]] double at(int x, int y) const { return value + dx * (x - x0) + dy * (y - y0); }
+};
 
 /// A tile being filled. Fragments are drawn in the triangles' order, then sorted by pixel and by depth.
 struct TransilluminationBuffer::Scratch {
@@ -94,6 +87,8 @@ TransilluminationBuffer::TransilluminationBuffer(const SurfaceMesh& mesh, const 
     bins_.resize((mesh.triangles.size() + triangles_a_bin_set - 1) / triangles_a_bin_set);
 }
 
+TransilluminationBuffer::~TransilluminationBuffer() = default;
+
 void TransilluminationBuffer::project(const Bundle& bundle, const Workers& workers) {
     constexpr std::size_t grain = 4096;
     std::vector<Bounds> partial((mesh_.positions.size() + grain - 1) / grain);
@@ -115,6 +110,8 @@ void TransilluminationBuffer::project(const Bundle& bundle, const Workers& worke
     }
     const double scale = fixed_unit / pixel_size_;
     const glm::dvec2 shift = glm::dvec2(bundle.offset_x, bundle.offset_y) * fixed_unit - glm::dvec2(b.low) * scale;
+    const double range = b.high.z - b.low.z;
+    const double depth_scale = range > 0.0 ? (0x1p63 - 2.0 * depth_margin) / range : 0.0;
     width_ = static_cast<int>(std::ceil((b.high.x - b.low.x) / pixel_size_)) + 2;
     height_ = static_cast<int>(std::ceil((b.high.y - b.low.y) / pixel_size_)) + 2;
     tiles_x_ = (width_ + tile_size - 1) / tile_size;
@@ -124,7 +121,7 @@ void TransilluminationBuffer::project(const Bundle& bundle, const Workers& worke
             const glm::dvec3 q = mesh_.positions[i] * bundle.frame;
             projected_[i] = {static_cast<std::int32_t>(std::lrint(q.x * scale + shift.x)),
                              static_cast<std::int32_t>(std::lrint(q.y * scale + shift.y)),
-                             static_cast<float>(q.z - b.low.z)};
+                             depth_margin + (q.z - b.low.z) * depth_scale};
         }
     });
 }
@@ -153,6 +150,38 @@ void TransilluminationBuffer::bin(const Workers& workers) {
     });
 }
 
+/// Through the vertices in the order of their numbers: triangles on the same three vertices then have the same
+/// depths to the last bit.
+TransilluminationBuffer::Plane TransilluminationBuffer::depth_plane(std::uint32_t root) const {
+    std::array<std::uint32_t, 3> v = mesh_.triangles[root].vertices;
+    if (v[0] > v[1]) std::swap(v[0], v[1]);
+    if (v[1] > v[2]) std::swap(v[1], v[2]);
+    if (v[0] > v[1]) std::swap(v[0], v[1]);
+    const ProjectedVertex &a = projected_[v[0]], &b = projected_[v[1]], &c = projected_[v[2]];
+    const double bx = b.x - a.x, by = b.y - a.y, cx = c.x - a.x, cy = c.y - a.y;
+    const double scale = fixed_unit / (bx * cy - cx * by);
+    const double zb = b.depth - a.depth, zc = c.depth - a.depth;
+    return {a.x / fixed_unit, a.y / fixed_unit, a.depth, (zb * cy - zc * by) * scale, (zc * bx - zb * cx) * scale};
+}
+
+/// Sorts a list by depth. Where the 31 bits of two neighbours all but agree, their planes decide; where these agree
+/// too, the surfaces coincide and the keys stand.
+void TransilluminationBuffer::sort_list(Fragment* begin, Fragment* end, int x, int y) const {
+    constexpr Fragment near = std::uint64_t{2} << 32;
+    for (Fragment* i = begin + 1; i < end; ++i) {
+        const Fragment f = *i;
+        Fragment* j = i;
+        for (; j > begin && j[-1] > f; --j) *j = j[-1];
+        *j = f;
+    }
+    for (Fragment* i = begin + 1; i < end; ++i) {
+        if (i[0] - i[-1] >= near) continue;
+        const double before = depth_plane(patches_.root_of_leaf[leaf_of(i[-1])]).at(x, y);
+        const double after = depth_plane(patches_.root_of_leaf[leaf_of(i[0])]).at(x, y);
+        if (before > after) std::swap(i[-1], i[0]);
+    }
+}
+
 void TransilluminationBuffer::draw(std::uint32_t root, const TileRect& rect, Scratch& scratch) const {
     const auto& vertices = mesh_.triangles[root].vertices;
     std::array<const ProjectedVertex*, 3> p;
@@ -161,31 +190,20 @@ void TransilluminationBuffer::draw(std::uint32_t root, const TileRect& rect, Scr
     const std::int64_t area = twice_area(fixed[0], fixed[1], fixed[2]);
     if (area == 0) return;
 
-    // Planes through the vertices in the order of their numbers: triangles on the same three vertices then
-    // have the same depths to the last bit.
-    std::array<int, 3> order{0, 1, 2};
-    if (vertices[order[0]] > vertices[order[1]]) std::swap(order[0], order[1]);
-    if (vertices[order[1]] > vertices[order[2]]) std::swap(order[1], order[2]);
-    if (vertices[order[0]] > vertices[order[1]]) std::swap(order[0], order[1]);
-    const ProjectedVertex &a = *p[order[0]], &b = *p[order[1]], &c = *p[order[2]];
-    const double bx = b.x - a.x, by = b.y - a.y, cx = c.x - a.x, cy = c.y - a.y;
-    const double scale = fixed_unit / (bx * cy - cx * by);
-    const double zb = double(b.depth) - a.depth, zc = double(c.depth) - a.depth;
-    const Plane depth{a.depth, (zb * cy - zc * by) * scale, (zc * bx - zb * cx) * scale};
-    const float nearest = std::min({a.depth, b.depth, c.depth});
-    const float furthest = std::max({a.depth, b.depth, c.depth});
-    const double reference_x = a.x / fixed_unit, reference_y = a.y / fixed_unit;
+    const Plane depth = depth_plane(root);
 
     // Barycentric coordinates of the second and third vertex, about the first.
     const double per_area = fixed_unit / static_cast<double>(area);
-    const Plane b1{0.0, (fixed[2].y - fixed[0].y) * per_area, (fixed[0].x - fixed[2].x) * per_area};
-    const Plane b2{0.0, (fixed[0].y - fixed[1].y) * per_area, (fixed[1].x - fixed[0].x) * per_area};
     const double first_x = fixed[0].x / fixed_unit, first_y = fixed[0].y / fixed_unit;
+    const Plane b1{first_x, first_y, 0.0, (fixed[2].y - fixed[0].y) * per_area, (fixed[0].x - fixed[2].x) * per_area};
+    const Plane b2{first_x, first_y, 0.0, (fixed[0].y - fixed[1].y) * per_area, (fixed[1].x - fixed[0].x) * per_area};
 
     // The window's axes and the direction are right-handed: a positive area is seen from ahead.
     const std::uint32_t facing = area > 0 ? 0x80000000u : 0u;
     const RootPatches& patches = patches_.roots[root];
     if (area < 0) std::swap(fixed[1], fixed[2]);
+    // A slope that does not fit belongs to a span of one pixel, where it is not used.
+    const auto dz = static_cast<std::uint64_t>(static_cast<std::int64_t>(std::clamp(depth.dx, -0x1p62, 0x1p62)));
 
     scan_convert(fixed, rect, [&](std::int32_t y, std::int32_t x0, std::int32_t x1) {
         scratch.reserve_row();
@@ -193,17 +211,12 @@ void TransilluminationBuffer::draw(std::uint32_t root, const TileRect& rect, Scr
         const int row = (y - rect.y0) * (rect.x1 - rect.x0) + (x0 - rect.x0);
         Fragment* const out = scratch.drawn.data() + scratch.count;
         std::uint16_t* const pixel = scratch.pixel.data() + scratch.count;
-        const auto z0 = static_cast<float>(depth.at_reference + depth.dx * (x0 - reference_x) + depth.dy * (y - reference_y));
-        const auto dz = static_cast<float>(depth.dx);
-        const auto key = [&](int i, std::uint32_t leaf) {
-            const float z = std::clamp(z0 + dz * static_cast<float>(i), nearest, furthest);
-            return (std::uint64_t{std::bit_cast<std::uint32_t>(z)} << 32) | facing | leaf;
-        };
+        const auto z0 = static_cast<std::uint64_t>(static_cast<std::int64_t>(depth.at(x0, y)));
+        const auto key = [&](int i, std::uint32_t leaf) { return ((z0 + i * dz) & depth_bits) | facing | leaf; };
         if (patches.level == 0) {
             for (int i = 0; i < length; ++i) out[i] = key(i, patches.first_leaf);
         } else {
-            const auto s0 = static_cast<float>(b1.dx * (x0 - first_x) + b1.dy * (y - first_y));
-            const auto t0 = static_cast<float>(b2.dx * (x0 - first_x) + b2.dy * (y - first_y));
+            const auto s0 = static_cast<float>(b1.at(x0, y)), t0 = static_cast<float>(b2.at(x0, y));
             const auto ds = static_cast<float>(b1.dx), dt = static_cast<float>(b2.dx);
             for (int i = 0; i < length; ++i) {
                 const auto step = static_cast<float>(i);
@@ -236,16 +249,19 @@ void TransilluminationBuffer::fill_tile(int tile, Scratch& scratch) const {
     for (std::size_t i = 0; i < scratch.count; ++i) scratch.sorted[first[scratch.pixel[i]]++] = scratch.drawn[i];
     std::copy_backward(first.begin(), first.begin() + pixels, first.begin() + pixels + 1);
     first[0] = 0;
-    for (int i = 0; i < pixels; ++i) sort_fragments(&scratch.sorted[first[i]], scratch.sorted.data() + first[i + 1]);
+    const int width = scratch.rect.x1 - x0;
+    for (int i = 0; i < pixels; ++i)
+        if (first[i + 1] - first[i] > 1)
+            sort_list(&scratch.sorted[first[i]], scratch.sorted.data() + first[i + 1], x0 + i % width, y0 + i / width);
 }
 
 void TransilluminationBuffer::trace(const Bundle& bundle, const Workers& workers, const Visitor& visit) {
     project(bundle, workers);
     bin(workers);
-    std::vector<Scratch> scratch(workers.count());
+    scratch_.resize(std::max<std::size_t>(scratch_.size(), workers.count()));
     workers.for_ranges(static_cast<std::size_t>(tiles_x_) * tiles_y_, 1, [&](std::size_t begin, std::size_t end, int worker) {
         for (std::size_t tile = begin; tile < end; ++tile) {
-            Scratch& s = scratch[worker];
+            Scratch& s = scratch_[worker];
             fill_tile(static_cast<int>(tile), s);
             if (s.count == 0) continue;
             visit({s.rect.x1 - s.rect.x0, s.rect.y1 - s.rect.y0, s.rect.y0, s.first, {s.sorted.data(), s.count}}, worker);

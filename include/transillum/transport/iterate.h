@@ -35,10 +35,12 @@ struct PatchSources {
 
 struct TransportResult {
     std::vector<Spectrum> irradiance;      ///< one a patch, of emission and direct after any number of reflections [W m^-2]
-    std::vector<Spectrum> standard_error;  ///< of the irradiance [W m^-2]
+    /// Of the irradiance [W m^-2], from the spread between blocks of directions; it overstates, as blocks of a
+    /// low-discrepancy sequence make up for each other. As large as the irradiance where there were too few blocks to tell.
+    std::vector<Spectrum> standard_error;
     std::vector<float> coverage;           ///< fragments seen, over all directions
     std::uint64_t iterations = 0;
-    double relative_error = 0.0;           ///< root of the area-weighted mean of squared errors over the mean irradiance
+    double relative_error = 0.0;           ///< root of the area-weighted mean of squared errors over the mean irradiance; 1 where unknown
     bool interrupted = false;
     SpectrumSum escaped{0.0};              ///< flux that left the scene [radiance * sr * square scene units]
     std::uint64_t fragments = 0;           ///< exchanged, over all directions

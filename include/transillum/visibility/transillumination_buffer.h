@@ -58,6 +58,7 @@ public:
     /// Keeps references to both. \param pixel_size edge of a pixel [scene units], the same for every direction.
     /// \throws UsageError when the window would have more than 16384 pixels a side.
     TransilluminationBuffer(const SurfaceMesh& mesh, const PatchHierarchy& patches, double pixel_size);
+    ~TransilluminationBuffer();
 
     using Visitor = std::function<void(const TileLists& tile, int worker)>;
     /// Visits every tile that holds a fragment, several at once. The lists do not depend on the number of workers.
@@ -69,9 +70,10 @@ public:
 
 private:
     struct Scratch;
+    struct Plane;
     struct ProjectedVertex {
         std::int32_t x, y;  ///< 1/256 pixel
-        float depth;        ///< not negative
+        double depth;       ///< in [0, 2^63)
     };
     /// Triangles by tile, of one range of triangles.
     using Bins = std::vector<std::vector<std::uint32_t>>;
@@ -80,6 +82,8 @@ private:
     void bin(const Workers& workers);
     void fill_tile(int tile, Scratch& scratch) const;
     void draw(std::uint32_t root, const struct TileRect& rect, Scratch& scratch) const;
+    Plane depth_plane(std::uint32_t root) const;
+    void sort_list(Fragment* begin, Fragment* end, int x, int y) const;
 
     const SurfaceMesh& mesh_;
     const PatchHierarchy& patches_;
@@ -87,6 +91,7 @@ private:
     int width_ = 0, height_ = 0, tiles_x_ = 0, tiles_y_ = 0;
     std::vector<ProjectedVertex> projected_;
     std::vector<Bins> bins_;
+    std::vector<Scratch> scratch_;  ///< one a worker
 };
 
 /// Pixel size for which a bundle's window is about `resolution` pixels wide: the mean width of the

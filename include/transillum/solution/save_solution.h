@@ -1,0 +1,34 @@
+/// Solution files: VTK XML, readable by ParaView and any VTK program.
+///
+///   NAME.vtm            written last and atomically: the index; its presence says the solution is whole
+///   NAME/radiance.vtp   one cell a patch that reflects or emits and is not dark throughout its root's side
+///   NAME/incoming.vtp   per patch and light sample: what arrives by first shot (absent without light samples)
+///   NAME/lights.vtp     the light samples
+///   NAME/surface.vtp    the root triangles
+///   NAME/run.json       timings, threads, command line: all that may differ between two equal solutions
+#pragma once
+
+#include <transillum/solution/solution.h>
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace transillum {
+
+inline constexpr int solution_format_version = 1;
+
+/// Facts of one run, kept beside the solution because they are no part of it.
+struct RunRecord {
+    std::string command_line;
+    int threads = 0;
+    std::vector<std::pair<std::string, double>> seconds;  ///< wall time by phase
+};
+
+/// Writes into a temporary folder beside the target and renames; an older solution of that name stays
+/// whole until then. Bytes of the VTK files depend on the solution alone.
+/// \throws UsageError unless `path` ends in .vtm; IoError where it cannot write (nothing is left behind).
+void save_solution(const Solution& solution, const RunRecord& run, const std::filesystem::path& path);
+
+}  // namespace transillum

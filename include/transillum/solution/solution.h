@@ -1,0 +1,72 @@
+/// A baked solution: everything needed to look at it again, without the scene file.
+#pragma once
+
+#include <transillum/base/spectrum.h>
+#include <transillum/first_shot/direct_light.h>
+#include <transillum/geometry/patch_hierarchy.h>
+#include <transillum/geometry/surface_mesh.h>
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace transillum {
+
+/// A part of the method that was left out or chosen for the user, and why.
+struct Decision {
+    std::string what;
+    std::string why;
+};
+
+/// Total flux [W] (radiance unit * sr * square scene units) by where it went.
+struct EnergyBalance {
+    SpectrumSum emitted{0.0};      ///< by all emitters
+    SpectrumSum absorbed{0.0};     ///< by patches
+    SpectrumSum escaped{0.0};      ///< out of the scene (estimate of the iteration and the first shot)
+    SpectrumSum black_backs{0.0};  ///< met the back of a one-sided surface: a mesh wound inside out, or a leak
+};
+
+struct Solution {
+    SurfaceMesh surface;
+    PatchHierarchy patches;
+    DirectLight direct;
+    std::vector<Camera> cameras;
+
+    // One a patch (PatchHierarchy: fronts, then backs). Sides that neither reflect nor emit hold zeros.
+    std::vector<Spectrum> direct_irradiance;    ///< by first shot [W m^-2]
+    std::vector<Spectrum> indirect_irradiance;  ///< by the iteration [W m^-2]
+    std::vector<Spectrum> standard_error;       ///< of the finite-element radiance [W sr^-1 m^-2]
+    std::vector<float> coverage;                ///< fragments seen, summed over directions
+
+    std::uint64_t iterations = 0;               ///< directions transferred, each both ways
+    std::uint64_t seed = 0;
+    double relative_error = 0.0;                ///< estimated, area-weighted mean of standard_error over mean radiance
+    bool interrupted = false;                   ///< stopped by the user before any criterion was met
+    EnergyBalance balance;
+    std::vector<Decision> decisions;            ///< what was skipped or chosen, with the reason
+    /// Options the result depends on, by name (never thread count, file names or times).
+    std::vector<std::pair<std::string, std::string>> settings;
+    std::string scene_hash;                     ///< of the geometry and materials that were baked, hexadecimal
+
+    [[nodiscard]] const Material& material_of(std::uint32_t patch) const {
+        return surface.materials[surface.triangles[patches.root_of_leaf[patches.leaf_of_patch(patch)]].material];
+    }
+    /// False for the black back of a one-sided surface.
+    [[nodiscard]] bool reflects(std::uint32_t patch) const {
+        return !patches.is_back(patch) || material_of(patch).back_reflects;
+    }
+    [[nodiscard]] bool emits(std::uint32_t patch) const {
+        const Material& m = material_of(patch);
+        return m.emits() && (!patches.is_back(patch) || m.back_emits);
+    }
+    /// Emitted radiance [W sr^-1 m^-2].
+    [[nodiscard]] Spectrum emission(std::uint32_t patch) const {
+        return emits(patch) ? material_of(patch).emission : Spectrum(0.0f);
+    }
+    /// Lambert: radiance = albedo * irradiance / pi.
+    [[nodiscard]] Spectrum direct_radiance(std::uint32_t patch) const;
+    [[nodiscard]] Spectrum finite_element_radiance(std::uint32_t patch) const;
+};
+
+}  // namespace transillum

@@ -1,0 +1,36 @@
+/// Options of subcommands that look at a surface.
+#pragma once
+
+#include <transillum/geometry/surface_mesh.h>
+#include <transillum/render/image.h>
+
+#include <CLI/CLI.hpp>
+
+#include <string>
+#include <vector>
+
+namespace transillum::cli {
+
+struct CameraOptions {
+    std::string name;
+    std::vector<double> eye, look_at, up;  ///< three numbers, or none
+    double vertical_fov = 45.0;
+    std::string size = "500x500";
+};
+
+struct ImageOptions {
+    std::vector<std::string> paths;
+    ToneMapping tone;
+};
+
+void add_camera_options(CLI::App& command, CameraOptions& options);
+void add_image_options(CLI::App& command, ImageOptions& options);
+
+/// \throws UsageError for an unknown name, an impossible view, or a name beside a free view.
+[[nodiscard]] Camera make_camera(const CameraOptions& options, const std::vector<Camera>& cameras, const SurfaceMesh& surface);
+
+/// "640x480". \throws UsageError unless both are in [1, 16384].
+struct Size { int width, height; };
+[[nodiscard]] Size parse_size(const std::string& text);
+
+}  // namespace transillum::cli

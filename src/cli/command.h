@@ -1,0 +1,25 @@
+/// Subcommands: each adds itself to the program and runs when it was chosen.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <string>
+
+namespace transillum::cli {
+
+enum ExitCode { done = 0, comparison_failed = 1, usage = 2, bad_input = 3, io_failed = 4, interrupted = 130 };
+
+/// Options every subcommand shares.
+struct Common {
+    std::string command_line;  ///< as given, for the record
+    bool quiet = false;        ///< no progress and no notes
+};
+
+// Each sets `exit_code` when its subcommand was run.
+void add_bake(CLI::App& program, const Common& common, int& exit_code);
+void add_render(CLI::App& program, const Common& common, int& exit_code);
+void add_info(CLI::App& program, const Common& common, int& exit_code);
+void add_compare(CLI::App& program, const Common& common, int& exit_code);
+void add_reference(CLI::App& program, const Common& common, int& exit_code);
+
+}  // namespace transillum::cli

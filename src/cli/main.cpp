@@ -1,0 +1,64 @@
+// The program: parses, runs one subcommand, and alone prints errors and decides the exit code.
+#include "cli/command.h"
+
+#include <transillum/base/error.h>
+
+#include <cstdio>
+#include <exception>
+#include <new>
+
+namespace {
+
+using namespace transillum::cli;
+
+std::string join(int argc, char** argv) {
+    std::string line;
+    for (int i = 0; i < argc; ++i) line += (i ? " " : "") + std::string(argv[i]);
+    return line;
+}
+
+int fail(const char* what, int exit_code) {
+    std::fprintf(stderr, "transillum: %s\n", what);
+    return exit_code;
+}
+
+int parse_and_run(int argc, char** argv) {
+    CLI::App program("transillum: bakes view-independent global illumination into VTK meshes and looks at them again", "transillum");
+    program.set_version_flag("--version", "transillum " TRANSILLUM_VERSION);
+    program.require_subcommand(1);
+    program.fallthrough();
+    program.footer("Exit codes: 0 done, 1 comparison failed, 2 usage, 3 bad input, 4 input/output, 130 interrupted.\n"
+                   "Data goes to stdout, progress and messages to stderr.");
+    Common common{join(argc, argv)};
+    program.add_flag("-q,--quiet", common.quiet, "no progress and no notes");
+    int exit_code = ExitCode::done;
+    add_bake(program, common, exit_code);
+    add_render(program, common, exit_code);
+    add_info(program, common, exit_code);
+    add_compare(program, common, exit_code);
+    add_reference(program, common, exit_code);
+    try {
+        program.parse(argc, argv);
+    } catch (const CLI::ParseError& e) {
+        return program.exit(e) == 0 ? ExitCode::done : ExitCode::usage;
+    }
+    return exit_code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    try {
+        return parse_and_run(argc, argv);
+    } catch (const transillum::UsageError& e) {
+        return fail(e.what(), ExitCode::usage);
+    } catch (const transillum::InputError& e) {
+        return fail(e.what(), ExitCode::bad_input);
+    } catch (const transillum::IoError& e) {
+        return fail(e.what(), ExitCode::io_failed);
+    } catch (const std::bad_alloc&) {
+        return fail("out of memory; fewer leaves or light samples need less", ExitCode::io_failed);
+    } catch (const std::exception& e) {
+        return fail(e.what(), ExitCode::bad_input);
+    }
+}

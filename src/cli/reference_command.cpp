@@ -1,0 +1,56 @@
+#include "cli/camera_options.h"
+#include "cli/command.h"
+#include "cli/console.h"
+#include "cli/scene_options.h"
+
+#include <transillum/geometry/surface_mesh.h>
+#include <transillum/render/path_trace.h>
+#include <transillum/render/render_solution.h>
+
+#include <memory>
+
+namespace transillum::cli {
+
+namespace {
+
+struct ReferenceArguments {
+    SceneOptions scene;
+    CameraOptions camera;
+    ImageOptions image;
+    PathTraceOptions path_trace;
+    int threads = 0;
+};
+
+int run(ReferenceArguments& a, const Common& common) {
+    Console console(common.quiet);
+    for (const std::string& path : a.image.paths) require_writable(path);
+    const auto [width, height] = parse_size(a.camera.size);
+    a.path_trace.width = width;
+    a.path_trace.height = height;
+    const Scene scene = read_scene(a.scene, console);
+    const SurfaceMesh surface = build_surface(scene, {}, console);
+    const Camera camera = make_camera(a.camera, scene.cameras, surface);
+    const Image image = path_trace(surface, camera, a.path_trace, Workers(a.threads), console);
+    if (console.stop_requested()) return ExitCode::interrupted;
+    for (const std::string& path : a.image.paths) write_image(image, path, a.image.tone);
+    return ExitCode::done;
+}
+
+}  // namespace
+
+void add_reference(CLI::App& program, const Common& common, int& exit_code) {
+    auto a = std::make_shared<ReferenceArguments>();
+    CLI::App* command = program.add_subcommand("reference", "Path-trace a scene, to measure errors against");
+    add_scene_options(*command, a->scene);
+    add_camera_options(*command, a->camera);
+    add_image_options(*command, a->image);
+    command->add_option("--samples", a->path_trace.samples, "paths a pixel")
+        ->check(CLI::Range(1, 1 << 24))->capture_default_str()->group("Paths");
+    command->add_option("--max-bounces", a->path_trace.max_bounces, "0: no limit, roulette alone ends paths")
+        ->check(CLI::NonNegativeNumber)->capture_default_str()->group("Paths");
+    command->add_option("--seed", a->path_trace.seed, "of the paths")->capture_default_str()->group("Paths");
+    command->add_option("--threads", a->threads, "0: as many as the machine has")->capture_default_str()->group("Paths");
+    command->callback([a, &common, &exit_code] { exit_code = run(*a, common); });
+}
+
+}  // namespace transillum::cli

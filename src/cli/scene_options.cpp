@@ -1,0 +1,38 @@
+#include "cli/scene_options.h"
+
+#include <transillum/base/error.h>
+#include <transillum/scene/limit_albedo.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <unistd.h>
+
+namespace transillum::cli {
+
+void add_scene_options(CLI::App& command, SceneOptions& options) {
+    command.add_option("SCENE", options.path, "scene: .gltf .glb .obj .ply .stl .off")->required();
+    add_choice(command, "--sides", options.load.sides,
+               {{"file", Sides::file}, {"one", Sides::one}, {"two", Sides::two}},
+               "which sides of a surface reflect and emit")->group("Scene");
+    command.add_flag("--drop-transparent", options.load.drop_transparent,
+                     "leave out transparent surfaces (else they are opaque)")->group("Scene");
+    command.add_option("--max-albedo", options.max_albedo, "albedos above it are reduced, per channel")
+        ->capture_default_str()->group("Scene");
+}
+
+Scene read_scene(const SceneOptions& options, Monitor& monitor) {
+    Scene scene = load_scene(options.path, options.load, monitor);
+    limit_albedo(scene, options.max_albedo, monitor);
+    return scene;
+}
+
+void require_writable(const std::string& path) {
+    const std::filesystem::path file(path);
+    const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+    if (!std::filesystem::is_directory(folder)) throw IoError(path, "its folder does not exist; accepted: an existing one");
+    if (std::filesystem::is_directory(file)) throw IoError(path, "is a folder; accepted: a file's name");
+    if (access(folder.c_str(), W_OK) != 0) throw IoError(path, std::string("cannot write to its folder: ") + std::strerror(errno));
+}
+
+}  // namespace transillum::cli

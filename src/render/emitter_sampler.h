@@ -1,0 +1,44 @@
+/// Points on the emitters, in proportion to the flux that leaves them.
+#pragma once
+
+#include "render/facets.h"
+
+#include <glm/vec2.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace transillum {
+
+struct EmitterPoint {
+    glm::dvec3 position;
+    glm::dvec3 normal;  ///< of the side that emits
+    Spectrum radiance;
+    double density;  ///< per area
+};
+
+class EmitterSampler {
+public:
+    EmitterSampler(const SurfaceMesh& mesh, const std::vector<Facet>& facets);
+
+    [[nodiscard]] bool empty() const { return sides_.empty(); }
+    /// \pre not empty
+    [[nodiscard]] EmitterPoint sample(glm::vec2 u) const;
+    /// Density per area of a point on a side of that radiance.
+    [[nodiscard]] double density(const Spectrum& radiance) const {
+        return mean_channel(radiance) / total_;
+    }
+
+private:
+    struct Side {
+        std::uint32_t root;
+        bool back;
+    };
+    const std::vector<Facet>& facets_;
+    const SurfaceMesh& mesh_;
+    std::vector<Side> sides_;
+    std::vector<double> cumulative_;  ///< radiance * area up to and with each side
+    double total_ = 0.0;
+};
+
+}  // namespace transillum

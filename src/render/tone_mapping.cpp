@@ -1,0 +1,53 @@
+#include "render/tone_mapping.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace transillum {
+
+namespace {
+
+constexpr float middle_grey = 0.18f;
+constexpr float shoulder = 0.6f;
+
+template <class Accept>
+float median_luminance(const Image& image, Accept accept) {
+    std::vector<float> lit;
+    for (std::size_t i = 0; i < image.pixels.size(); ++i)
+        if (const float y = luminance(image.pixels[i]); y > 0.0f && accept(i)) lit.push_back(y);
+    if (lit.empty()) return 0.0f;
+    const auto middle = lit.begin() + static_cast<std::ptrdiff_t>(lit.size() / 2);
+    std::nth_element(lit.begin(), middle, lit.end());
+    return *middle;
+}
+
+}  // namespace
+
+float exposure_factor(const Image& image, const ToneMapping& tone) {
+    const auto stops = static_cast<float>(std::exp2(tone.exposure));
+    if (!tone.automatic) return stops;
+    float median = median_luminance(image, [&](std::size_t i) {
+        return image.emitter_mask.empty() || image.emitter_mask[i] == 0.0f;
+    });
+    if (median == 0.0f) median = median_luminance(image, [](std::size_t) { return true; });
+    return median > 0.0f ? stops * middle_grey / median : stops;
+}
+
+Spectrum compress_highlights(const Spectrum& colour) {
+    const Spectrum c = glm::max(colour, Spectrum(0.0f));
+    const float peak = max_channel(c);
+    if (peak <= shoulder) return c;
+    const float range = 1.0f - shoulder;
+    return c * ((1.0f - range * std::exp((shoulder - peak) / range)) / peak);
+}
+
+float srgb_from_linear(float linear) {
+    const float x = std::clamp(linear, 0.0f, 1.0f);
+    return x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1.0f / 2.4f) - 0.055f;
+}
+
+float linear_from_srgb(float encoded) {
+    return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
+}
+
+}  // namespace transillum

@@ -1,0 +1,25 @@
+/// Materials of a glTF document.
+#pragma once
+
+#include "scene/gltf_document.h"
+
+#include <transillum/base/monitor.h>
+#include <transillum/scene/scene.h>
+
+#include <vector>
+
+namespace transillum {
+
+/// One a glTF material, textures left aside. diffuse = base colour times (1 - metallic), specular =
+/// base colour times metallic, emission = emissive factor times KHR_materials_emissive_strength.
+/// Opacity is 1 less KHR_materials_transmission, times alpha where alphaMode is BLEND. \throws
+/// InputError naming the material.
+[[nodiscard]] std::vector<Material> read_gltf_materials(const GltfDocument& document,
+                                                        Monitor& monitor);
+
+/// Multiplies a material by the mean of its base colour texture, with a note; warns of the textures
+/// that are not honoured. \throws InputError naming material and image.
+void bake_gltf_textures(const GltfDocument& document, std::size_t index, Material& material,
+                        Monitor& monitor);
+
+}  // namespace transillum

@@ -1,0 +1,211 @@
+#include <transillum/base/error.h>
+#include <transillum/base/sampling.h>
+#include <transillum/first_shot/shoot_direct_light.h>
+#include <transillum/solution/bake.h>
+#include <transillum/visibility/transillumination_buffer.h>
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+
+namespace transillum {
+
+namespace {
+
+constexpr double pixels_a_leaf_edge = 3.0;
+constexpr int least_resolution = 256, largest_resolution = 4096;
+
+/// Adds the time since the last lap to the record.
+class StopWatch {
+public:
+    explicit StopWatch(RunRecord* run) : run_(run) {}
+    void lap(const char* phase) {
+        const auto now = std::chrono::steady_clock::now();
+        if (run_) run_->seconds.emplace_back(phase, std::chrono::duration<double>(now - last_).count());
+        last_ = now;
+    }
+
+private:
+    RunRecord* run_;
+    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+void require_light(const Scene& scene, const SurfaceMesh& mesh) {
+    for (const RootTriangle& t : mesh.triangles)
+        if (mesh.materials[t.material].emits()) return;
+    throw InputError(scene.path, fmt::format("no light: none of the materials of its {} triangles emits; accepted: at "
+                                             "least one (OBJ: Ke, glTF: emissiveFactor)", mesh.triangles.size()));
+}
+
+/// So many pixels that an average leaf (by area) is three wide.
+double automatic_pixel_size(const SurfaceMesh& mesh, const PatchHierarchy& patches) {
+    double area = 0.0, weighted_edge = 0.0;
+    for (std::uint32_t r = 0; r < mesh.triangles.size(); ++r) {
+        const double a = area_of(mesh, r);
+        area += a;
+        weighted_edge += a * std::sqrt(2.0 * leaf_area(mesh, patches, r));
+    }
+    const double wanted = weighted_edge / area / pixels_a_leaf_edge;
+    return std::clamp(wanted, pixel_size_for(mesh, largest_resolution), pixel_size_for(mesh, least_resolution));
+}
+
+PatchSources make_sources(const Solution& s) {
+    const std::uint32_t n = s.patches.patch_count();
+    PatchSources sources{std::vector<Spectrum>(n), std::vector<Spectrum>(n), std::vector<Spectrum>(n)};
+    for (std::uint32_t p = 0; p < n; ++p) {
+        const std::uint32_t root = s.patches.root_of_leaf[s.patches.leaf_of_patch(p)];
+        const bool shot = s.direct.shot_sides[2 * root + (s.patches.is_back(p) ? 1 : 0)] != 0;
+        sources.albedo[p] = s.reflects(p) ? s.material_of(p).albedo() : Spectrum(0.0f);
+        sources.emission[p] = shot ? Spectrum(0.0f) : s.emission(p);
+        sources.direct[p] = s.direct_radiance(p);
+    }
+    return sources;
+}
+
+/// Is there anything for the iteration to carry, and anything that could reflect it?
+bool needs_transport(const PatchSources& sources) {
+    for (std::size_t p = 0; p < sources.albedo.size(); ++p)
+        if (max_channel(sources.emission[p]) > 0.0f || max_channel(sources.direct[p]) > 0.0f) return true;
+    return false;
+}
+
+/// 64-bit FNV-1a over what light sees of a scene.
+class SceneHash {
+public:
+    void add(std::uint64_t bits) {
+        for (int i = 0; i < 8; ++i) hash_ = (hash_ ^ ((bits >> (8 * i)) & 0xff)) * 0x100000001b3u;
+    }
+    void add(double x) { add(std::bit_cast<std::uint64_t>(x)); }
+    void add(const Spectrum& s) {
+        for (int i = 0; i < channel_count; ++i) add(double{s[i]});
+    }
+    [[nodiscard]] std::string text() const { return fmt::format("{:016x}", hash_); }
+
+private:
+    std::uint64_t hash_ = 0xcbf29ce484222325u;
+};
+
+std::string hash_scene(const SurfaceMesh& mesh) {
+    SceneHash h;
+    for (const glm::dvec3& p : mesh.positions)
+        for (int i = 0; i < 3; ++i) h.add(p[i]);
+    for (const RootTriangle& t : mesh.triangles) {
+        for (const std::uint32_t v : t.vertices) h.add(std::uint64_t{v});
+        h.add(std::uint64_t{t.material});
+    }
+    for (const Material& m : mesh.materials) {
+        h.add(m.albedo());
+        h.add(m.emission);
+        h.add(std::uint64_t{m.back_reflects} | std::uint64_t{m.back_emits} << 1);
+    }
+    return h.text();
+}
+
+EnergyBalance measure_balance(const Solution& s, const SpectrumSum& escaped_in_transport) {
+    EnergyBalance balance;
+    balance.escaped = escaped_in_transport;
+    SpectrumSum shot(0.0), arrived(0.0);
+    for (const LightSample& l : s.direct.samples) shot += SpectrumSum(l.radiance) * (std::numbers::pi * l.area);
+    for (std::uint32_t p = 0; p < s.patches.patch_count(); ++p) {
+        const double area = leaf_area(s.surface, s.patches, s.patches.root_of_leaf[s.patches.leaf_of_patch(p)]);
+        const SpectrumSum direct = area * SpectrumSum(s.direct_irradiance[p]);
+        const SpectrumSum flux = direct + area * SpectrumSum(s.indirect_irradiance[p]);
+        arrived += direct;
+        balance.emitted += area * std::numbers::pi * SpectrumSum(s.emission(p));
+        if (s.reflects(p))
+            balance.absorbed += flux * (1.0 - SpectrumSum(s.material_of(p).albedo()));
+        else
+            balance.black_backs += flux;
+    }
+    balance.escaped += glm::max(shot - arrived, SpectrumSum(0.0));
+    return balance;
+}
+
+void decide_first_shot(const Luminaires& luminaires, FirstShot choice, std::vector<Decision>& decisions) {
+    const char* const why = choice == FirstShot::automatic ? "a small part of the scene's surface" : "asked for";
+    if (luminaires.shot > 0)
+        decisions.push_back({fmt::format("first shot: {} of {} luminaires, {} light samples", luminaires.shot,
+                                         luminaires.count, luminaires.samples.size()), why});
+    else
+        decisions.push_back({"no first shot", choice == FirstShot::off
+                                                  ? "asked for"
+                                                  : fmt::format("every luminaire is large (up to {:.0f} % of the surface): cheaper in the iteration",
+                                                                100.0 * luminaires.largest_share)});
+}
+
+void note_decisions(const Solution& s, Monitor& monitor) {
+    for (const Decision& d : s.decisions) monitor.note(d.what + ": " + d.why);
+}
+
+void record_settings(const BakeOptions& o, Solution& s) {
+    const char* const shots[] = {"auto", "off", "hemicube"};
+    s.settings = {{"patch-size", fmt::format("{}", o.subdivision.patch_size)},
+                  {"leaves", fmt::format("{}", o.subdivision.leaf_target)},
+                  {"max-level", fmt::format("{}", o.subdivision.max_level)},
+                  {"crease-angle", fmt::format("{}", o.surface.crease_angle)},
+                  {"first-shot", shots[static_cast<int>(o.light.first_shot)]},
+                  {"light-samples", fmt::format("{}", o.light.samples)},
+                  {"hemicube", fmt::format("{}", o.hemicube_resolution)},
+                  {"resolution", fmt::format("{}", o.resolution)},
+                  {"iterations", fmt::format("{}", o.iteration.iterations)},
+                  {"target-error", fmt::format("{}", o.iteration.target_error)},
+                  {"time", fmt::format("{}", o.iteration.seconds)},
+                  {"averaging", o.iteration.averaging == Averaging::paper ? "paper" : "balanced"},
+                  {"seed", fmt::format("{}", o.seed)}};
+}
+
+}  // namespace
+
+Solution bake(const Scene& scene, const BakeOptions& options, const Workers& workers, Monitor& monitor, RunRecord* run) {
+    StopWatch watch(run);
+    Solution s;
+    s.seed = options.seed;
+    s.cameras = scene.cameras;
+    record_settings(options, s);
+
+    s.surface = build_surface(scene, options.surface, monitor);
+    require_light(scene, s.surface);
+    s.patches = subdivide_uniformly(s.surface, options.subdivision);
+    s.scene_hash = hash_scene(s.surface);
+    watch.lap("geometry");
+
+    LightSampleOptions light = options.light;
+    light.seed = options.seed;
+    const Luminaires luminaires = sample_luminaires(s.surface, light);
+    decide_first_shot(luminaires, light.first_shot, s.decisions);
+    s.direct = shoot_direct_light(s.surface, s.patches, luminaires, options.hemicube_resolution, workers, monitor);
+    s.direct_irradiance = direct_irradiance(s.direct, s.patches.patch_count());
+    watch.lap("first shot");
+
+    IterationOptions iteration = options.iteration;
+    iteration.seed = options.seed;
+    iteration.pixel_size = options.resolution > 0 ? pixel_size_for(s.surface, options.resolution)
+                                                  : automatic_pixel_size(s.surface, s.patches);
+    const PatchSources sources = make_sources(s);
+    if (!needs_transport(sources)) {
+        iteration.iterations = 0;
+        s.decisions.push_back({"no iteration", "no surface reflects the direct light"});
+    }
+    s.decisions.push_back({"one direction bin a patch", "every surface is taken as diffuse"});
+    s.decisions.push_back({"no environment", "the scene has none"});
+    TransportResult transport = iterate(s.surface, s.patches, sources, iteration, workers, monitor);
+    watch.lap("transport");
+
+    s.indirect_irradiance = std::move(transport.irradiance);
+    s.coverage = std::move(transport.coverage);
+    s.standard_error = std::move(transport.standard_error);
+    for (std::uint32_t p = 0; p < s.patches.patch_count(); ++p)
+        s.standard_error[p] *= sources.albedo[p] / static_cast<float>(std::numbers::pi);
+    s.iterations = transport.iterations;
+    s.relative_error = transport.relative_error;
+    s.interrupted = transport.interrupted;
+    s.balance = measure_balance(s, transport.escaped);
+    note_decisions(s, monitor);
+    if (run) run->threads = workers.count();
+    return s;
+}
+
+}  // namespace transillum

@@ -1,0 +1,207 @@
+#include "check_solution.h"
+
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+
+namespace transillum {
+
+namespace {
+
+struct Defect : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+/// Shares of sums may exceed one by their rounding.
+constexpr double one_and_rounding = 1.0 + 1e-5;
+
+constexpr std::size_t unnumbered = std::numeric_limits<std::size_t>::max();
+
+/// Where a value belongs; spelt out only when there is something to say.
+struct Place {
+    Place(const char* thing_, std::size_t number_ = unnumbered, const char* part_ = "")
+        : thing(thing_), number(number_), part(part_) {}
+    [[nodiscard]] Place operator/(const char* of_it) const { return {thing, number, of_it}; }
+    [[nodiscard]] std::string text() const {
+        std::string text = thing;
+        if (number != unnumbered) text.append(" ").append(std::to_string(number));
+        if (*part != 0) text.append(" ").append(part);
+        return text;
+    }
+    const char* thing;
+    std::size_t number;
+    const char* part;
+};
+
+void check_number(double value, double least, double most, const Place& what) {
+    if (std::isfinite(value) && value >= least && value <= most) return;
+    std::ostringstream text;
+    text << what.text() << ": " << value << " is not a finite number";
+    if (least > -infinity) text << " of at least " << least;
+    if (most < infinity) text << " and at most " << most;
+    throw Defect(text.str());
+}
+
+template <class T>
+void check_vector(const glm::vec<3, T>& value, double least, const Place& what) {
+    for (int channel = 0; channel < 3; ++channel)
+        check_number(value[channel], least, infinity, what);
+}
+
+void check_index(std::size_t index, std::size_t count, const Place& what) {
+    if (index < count) return;
+    throw Defect(what.text() + ": index " + std::to_string(index) + " of " + std::to_string(count));
+}
+
+void check_count(std::size_t count, std::size_t expected, const Place& what) {
+    if (count == expected) return;
+    throw Defect(what.text() + ": " + std::to_string(count) + " entries, expected " +
+                 std::to_string(expected));
+}
+
+/// VTK ends a text at its first zero.
+void check_text(const std::string& text, const Place& what) {
+    if (text.find('\0') != std::string::npos)
+        throw Defect(what.text() + ": text holds a zero byte");
+}
+
+void check_material(const Material& material, const Place& what) {
+    check_text(material.name, what / "name");
+    check_vector(material.diffuse, 0.0, what / "diffuse albedo");
+    check_vector(material.specular, 0.0, what / "specular albedo");
+    check_vector(material.emission, 0.0, what / "emission");
+    check_number(material.shininess, 0.0, infinity, what / "shininess");
+    check_number(material.roughness, 0.0, infinity, what / "roughness");
+    check_number(material.opacity, 0.0, 1.0, what / "opacity");
+}
+
+void check_triangle(const SurfaceMesh& mesh, const RootTriangle& triangle, const Place& what) {
+    for (std::size_t k = 0; k < 3; ++k) {
+        check_index(triangle.vertices[k], mesh.positions.size(), what / "vertex");
+        check_index(triangle.fans[k], mesh.fan_count, what / "fan");
+    }
+    check_index(triangle.material, mesh.materials.size(), what / "material");
+    check_index(triangle.object, mesh.objects.size(), what / "object");
+}
+
+void check_surface(const SurfaceMesh& mesh) {
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        check_vector(mesh.positions[i], -infinity, Place("position", i));
+    }
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        check_triangle(mesh, mesh.triangles[i], Place("root", i));
+    }
+    if (!mesh.uvs.empty()) check_count(mesh.uvs.size(), 3 * mesh.triangles.size(), "UVs");
+    for (std::size_t i = 0; i < mesh.uvs.size(); ++i) {
+        check_vector(glm::vec3(mesh.uvs[i], 0.0f), -infinity, Place("UV", i));
+    }
+    for (std::size_t i = 0; i < mesh.materials.size(); ++i) {
+        check_material(mesh.materials[i], Place("material", i));
+    }
+    for (std::size_t i = 0; i < mesh.objects.size(); ++i) {
+        check_text(mesh.objects[i], Place("object", i));
+    }
+    check_number(mesh.grid.largest_move, 0.0, infinity, "grid: largest move");
+}
+
+void check_hierarchy(const PatchHierarchy& patches, std::size_t roots) {
+    check_count(patches.roots.size(), roots, "subdivided roots");
+    check_count(patches.root_of_leaf.size(), patches.leaf_count, "roots of leaves");
+    std::uint64_t leaf = 0;
+    for (std::size_t i = 0; i < roots; ++i) {
+        const auto [first, level] = patches.roots[i];
+        check_number(level, 0, max_subdivision_level, Place("root", i, "level"));
+        check_count(first, leaf, Place("root", i, "first leaf"));
+        leaf += std::uint64_t{1} << (2 * level);
+        check_index(leaf - 1, patches.leaf_count, Place("root", i, "last leaf"));
+        for (std::uint64_t k = first; k < leaf; ++k) {
+            check_count(patches.root_of_leaf[k], i, Place("root of leaf", k));
+        }
+    }
+    check_count(patches.leaf_count, leaf, "leaves");
+}
+
+void check_table(const std::vector<float>& values, std::size_t count, double most,
+                 const Place& what) {
+    check_count(values.size(), count, what);
+    for (std::size_t i = 0; i < count; ++i) {
+        check_number(values[i], 0.0, most, Place(what.thing, i));
+    }
+}
+
+void check_spectra(const std::vector<Spectrum>& values, std::size_t count, const Place& what) {
+    check_count(values.size(), count, what);
+    for (std::size_t i = 0; i < count; ++i) {
+        check_vector(values[i], 0.0, Place(what.thing, i));
+    }
+}
+
+void check_direct(const DirectLight& direct, std::size_t roots, std::size_t patches) {
+    for (std::size_t i = 0; i < direct.samples.size(); ++i) {
+        const LightSample& sample = direct.samples[i];
+        const Place what("light sample", i);
+        check_vector(sample.position, -infinity, what / "position");
+        check_vector(sample.normal, -infinity, what / "normal");
+        check_number(sample.area, 0.0, infinity, what / "area");
+        check_vector(sample.radiance, 0.0, what / "radiance");
+        check_index(sample.root, roots, what / "root");
+    }
+    const std::size_t entries = patches * direct.samples.size();
+    check_table(direct.projected_solid_angle, entries, infinity, "projected solid angle, entry");
+    check_table(direct.visibility, entries, one_and_rounding, "visibility, entry");
+    if (!direct.shot_sides.empty()) check_count(direct.shot_sides.size(), 2 * roots, "shot sides");
+    for (std::size_t i = 0; i < direct.shot_sides.size(); ++i) {
+        check_number(direct.shot_sides[i], 0, 1, Place("shot side", i));
+    }
+}
+
+void check_camera(const Camera& camera, const Place& what) {
+    check_text(camera.name, what / "name");
+    check_vector(camera.eye, -infinity, what / "eye");
+    check_vector(camera.look_at, -infinity, what / "look-at");
+    check_vector(camera.up, -infinity, what / "up");
+    const double least = std::numeric_limits<double>::min();
+    check_number(camera.vertical_fov, least, std::nextafter(180.0, 0.0), what / "field of view");
+}
+
+void check_summary(const Solution& solution) {
+    check_number(solution.relative_error, 0.0, infinity, "relative error");
+    check_vector(solution.balance.emitted, -infinity, "emitted energy");
+    check_vector(solution.balance.absorbed, -infinity, "absorbed energy");
+    check_vector(solution.balance.escaped, -infinity, "escaped energy");
+    check_vector(solution.balance.black_backs, -infinity, "energy on black backs");
+    for (const auto& [what, why] : solution.decisions) {
+        check_text(what, "decision");
+        check_text(why, "decision");
+    }
+    for (const auto& [name, value] : solution.settings) {
+        check_text(name, "setting");
+        check_text(value, "setting");
+    }
+    check_text(solution.scene_hash, "scene hash");
+}
+
+}  // namespace
+
+std::string find_defect(const Solution& solution) try {
+    const std::size_t roots = solution.surface.triangles.size();
+    const std::size_t patches = solution.patches.patch_count();
+    check_surface(solution.surface);
+    check_hierarchy(solution.patches, roots);
+    check_direct(solution.direct, roots, patches);
+    for (std::size_t i = 0; i < solution.cameras.size(); ++i) {
+        check_camera(solution.cameras[i], Place("camera", i));
+    }
+    check_spectra(solution.direct_irradiance, patches, "direct irradiance of patch");
+    check_spectra(solution.indirect_irradiance, patches, "indirect irradiance of patch");
+    check_spectra(solution.standard_error, patches, "standard error of patch");
+    check_table(solution.coverage, patches, infinity, "coverage of patch");
+    check_summary(solution);
+    return {};
+} catch (const Defect& defect) {
+    return defect.what();
+}
+
+}  // namespace transillum

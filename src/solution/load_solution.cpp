@@ -1,0 +1,77 @@
+#include <transillum/solution/load_solution.h>
+
+#include "check_solution.h"
+#include "checksum.h"
+#include "index_file.h"
+#include "pieces/pieces.h"
+#include "replace_files.h"
+#include "vtk_bytes.h"
+
+#include <transillum/base/error.h>
+
+#include <algorithm>
+
+namespace transillum {
+
+namespace {
+
+/// The pieces of one solution, read when asked for.
+class Pieces {
+public:
+    explicit Pieces(const Path& path) : path_(path), index_(parse_index(read_bytes(path), path)) {}
+
+    [[nodiscard]] Path file(const std::string& name) const {
+        return path_.parent_path() / index_.folder / (name + ".vtp");
+    }
+
+    [[nodiscard]] PolyData read(const std::string& name) const {
+        const auto piece =
+            std::find_if(index_.pieces.begin(), index_.pieces.end(),
+                         [&](const IndexedPiece& each) { return each.name == name; });
+        if (piece == index_.pieces.end()) {
+            throw InputError(path_.string(), "the block '" + name + "' is missing");
+        }
+        const std::string bytes = read_bytes(file(name));
+        check(bytes, *piece);
+        return from_vtp(bytes, file(name));
+    }
+
+private:
+    void check(const std::string& bytes, const IndexedPiece& piece) const {
+        if (bytes.size() != piece.bytes) {
+            throw InputError(file(piece.name).string(), "damaged: " + std::to_string(bytes.size()) +
+                                                            " bytes, " + path_.filename().string() +
+                                                            " says " + std::to_string(piece.bytes));
+        }
+        if (crc32(bytes) != piece.checksum) {
+            throw InputError(
+                file(piece.name).string(),
+                "damaged: its bytes do not match their checksum in " + path_.filename().string());
+        }
+    }
+
+    Path path_;
+    IndexFile index_;
+};
+
+}  // namespace
+
+Solution load_solution(const Path& path) {
+    const Pieces pieces(path);
+    const auto read = [&](const std::string& name, auto read_piece, auto& into) {
+        read_piece(*pieces.read(name), pieces.file(name), into);
+    };
+    Solution solution;
+    const PolyData surface = pieces.read("surface");
+    read_summary(*surface->GetFieldData(), pieces.file("surface"), solution);
+    read_surface_piece(*surface, pieces.file("surface"), solution);
+    read("lights", read_lights_piece, solution.direct);
+    read("radiance", read_radiance_piece, solution);
+    if (!solution.direct.samples.empty()) read("incoming", read_incoming_piece, solution);
+    if (const std::string defect = find_defect(solution); !defect.empty()) {
+        throw InputError(path.string(), defect);
+    }
+    return solution;
+}
+
+}  // namespace transillum

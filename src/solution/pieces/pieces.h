@@ -1,0 +1,42 @@
+/// The parts of a solution as VTK data, one .cpp a part. Readers check all they read against the
+/// file's promise; ranges and indices are checked once more, together, by check_solution.
+#pragma once
+
+#include <transillum/solution/solution.h>
+
+#include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+namespace transillum {
+
+using Patches = std::vector<std::uint32_t>;
+using PolyData = vtkSmartPointer<vtkPolyData>;
+using Path = std::filesystem::path;
+
+/// Root triangles, materials, objects, cameras, shot sides.
+[[nodiscard]] PolyData surface_piece(const Solution& solution);
+/// Fills `surface`, `patches`, `cameras` and `direct.shot_sides`.
+void read_surface_piece(vtkPolyData& piece, const Path& file, Solution& solution);
+
+/// Counts, settings, decisions, energy balance, units: field data of the surface.
+void add_summary(const Solution& solution, vtkFieldData& fields);
+void read_summary(vtkFieldData& fields, const Path& file, Solution& solution);
+
+[[nodiscard]] PolyData lights_piece(const DirectLight& direct);
+void read_lights_piece(vtkPolyData& piece, const Path& file, DirectLight& direct);
+
+/// What a person looks at, a cell a stored patch.
+[[nodiscard]] PolyData radiance_piece(const Solution& solution, const Patches& stored);
+/// Sides that are not stored get zeros. `surface` and `patches` must be there.
+void read_radiance_piece(vtkPolyData& piece, const Path& file, Solution& solution);
+
+/// First-shot light a stored patch and light sample.
+[[nodiscard]] PolyData incoming_piece(const Solution& solution, const Patches& stored);
+/// Light samples, `surface` and `patches` must be there.
+void read_incoming_piece(vtkPolyData& piece, const Path& file, Solution& solution);
+
+}  // namespace transillum

@@ -1,0 +1,230 @@
+#include "pieces.h"
+
+#include "solution/vtk_arrays.h"
+
+#include <transillum/base/error.h>
+
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkNew.h>
+#include <vtkPoints.h>
+
+#include <algorithm>
+#include <array>
+
+namespace transillum {
+
+namespace {
+
+/// Copies one member of every element to an array, and back.
+template <class Struct, class Value>
+void add_member(vtkFieldData& fields, const char* name, const std::vector<Struct>& structs,
+                Value Struct::*member) {
+    using Stored = std::conditional_t<std::is_same_v<Value, bool>, std::uint8_t, Value>;
+    if constexpr (std::is_same_v<Value, std::string>) {
+        std::vector<std::string> strings;
+        for (const Struct& each : structs) strings.push_back(each.*member);
+        add_strings(fields, name, strings);
+    } else {
+        add_array(fields, name, structs.size(),
+                  [&](std::size_t i) { return Stored(structs[i].*member); });
+    }
+}
+
+template <class Struct, class Value>
+void read_member(const ArrayReader& reader, const char* name, std::vector<Struct>& structs,
+                 Value Struct::*member) {
+    const auto values = [&] {
+        if constexpr (std::is_same_v<Value, std::string>) {
+            return reader.read_strings(name, structs.size());
+        } else if constexpr (std::is_same_v<Value, bool>) {
+            return reader.read_flags(name, structs.size());
+        } else {
+            return reader.read<Value>(name, structs.size());
+        }
+    }();
+    for (std::size_t i = 0; i < structs.size(); ++i) structs[i].*member = Value(values[i]);
+}
+
+/// Calls `each(array name, member)`: the one list that writing and reading share.
+template <class Each>
+void for_material_members(Each each) {
+    each("MaterialName", &Material::name);
+    each("MaterialDiffuse", &Material::diffuse);
+    each("MaterialSpecular", &Material::specular);
+    each("MaterialShininess", &Material::shininess);
+    each("MaterialRoughness", &Material::roughness);
+    each("MaterialEmission", &Material::emission);
+    each("MaterialBackReflects", &Material::back_reflects);
+    each("MaterialBackEmits", &Material::back_emits);
+    each("MaterialOpacity", &Material::opacity);
+}
+
+template <class Each>
+void for_camera_members(Each each) {
+    each("CameraName", &Camera::name);
+    each("CameraEye", &Camera::eye);
+    each("CameraLookAt", &Camera::look_at);
+    each("CameraUp", &Camera::up);
+    each("CameraVerticalFov", &Camera::vertical_fov);
+}
+
+template <class Each>
+void for_triangle_members(Each each) {
+    each("Fans", &RootTriangle::fans);
+    each("Material", &RootTriangle::material);
+    each("SourceObject", &RootTriangle::object);
+    each("SourceFace", &RootTriangle::source_face);
+}
+
+using CornerUvs = std::array<float, 6>;
+
+void add_uvs(const SurfaceMesh& mesh, vtkFieldData& cells) {
+    if (mesh.uvs.empty()) return;
+    add_array(cells, "UVs", mesh.triangles.size(), [&](std::size_t i) {
+        CornerUvs corners{};
+        for (std::size_t k = 0; k < 6; ++k) {
+            corners[k] = mesh.uvs[3 * i + k / 2][static_cast<int>(k % 2)];
+        }
+        return corners;
+    });
+}
+
+void read_uvs(const ArrayReader& reader, SurfaceMesh& mesh) {
+    if (!reader.has("UVs")) return;
+    for (const CornerUvs& c : reader.read<CornerUvs>("UVs", mesh.triangles.size())) {
+        mesh.uvs.insert(mesh.uvs.end(), {{c[0], c[1]}, {c[2], c[3]}, {c[4], c[5]}});
+    }
+}
+
+void add_shot_sides(const std::vector<std::uint8_t>& shot_sides, vtkFieldData& cells) {
+    const std::size_t roots = shot_sides.size() / 2;
+    if (roots == 0) return;
+    add_array(cells, "FirstShotFront", roots, [&](std::size_t i) { return shot_sides[2 * i]; });
+    add_array(cells, "FirstShotBack", roots, [&](std::size_t i) { return shot_sides[2 * i + 1]; });
+}
+
+void read_shot_sides(const ArrayReader& reader, std::size_t roots,
+                     std::vector<std::uint8_t>& shot_sides) {
+    if (!reader.has("FirstShotFront")) return;
+    const auto fronts = reader.read_flags("FirstShotFront", roots);
+    const auto backs = reader.read_flags("FirstShotBack", roots);
+    shot_sides.clear();
+    for (std::size_t i = 0; i < roots; ++i) {
+        shot_sides.insert(shot_sides.end(), {fronts[i], backs[i]});
+    }
+}
+
+PolyData triangles_of(const SurfaceMesh& mesh) {
+    vtkNew<vtkPoints> points;
+    points->SetDataTypeToDouble();
+    for (const glm::dvec3& p : mesh.positions) points->InsertNextPoint(p.x, p.y, p.z);
+    vtkNew<vtkCellArray> triangles;
+    for (const RootTriangle& triangle : mesh.triangles) {
+        const auto& v = triangle.vertices;
+        const std::array<vtkIdType, 3> corners{v[0], v[1], v[2]};
+        triangles->InsertNextCell(3, corners.data());
+    }
+    auto piece = PolyData::New();
+    piece->SetPoints(points);
+    piece->SetPolys(triangles);
+    return piece;
+}
+
+void read_triangles(vtkPolyData& piece, const Path& file, SurfaceMesh& mesh) {
+    for (vtkIdType i = 0; i < piece.GetNumberOfPoints(); ++i) {
+        const double* p = piece.GetPoint(i);
+        mesh.positions.emplace_back(p[0], p[1], p[2]);
+    }
+    vtkCellArray& cells = *piece.GetPolys();
+    mesh.triangles.resize(static_cast<std::size_t>(cells.GetNumberOfCells()));
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        vtkIdType size = 0;
+        const vtkIdType* corners = nullptr;
+        cells.GetCellAtId(static_cast<vtkIdType>(i), size, corners);
+        if (size != 3) {
+            throw InputError(file.string(), "cell " + std::to_string(i) + " has " +
+                                                std::to_string(size) + " corners, expected 3");
+        }
+        for (std::size_t k = 0; k < 3; ++k) {
+            if (corners[k] < 0 || corners[k] >= piece.GetNumberOfPoints()) {
+                throw InputError(file.string(), "cell " + std::to_string(i) + ": no point " +
+                                                    std::to_string(corners[k]));
+            }
+            mesh.triangles[i].vertices[k] = static_cast<std::uint32_t>(corners[k]);
+        }
+    }
+}
+
+void read_levels(const ArrayReader& reader, const Path& file, std::size_t roots,
+                 PatchHierarchy& patches) {
+    const auto levels = reader.read<std::int32_t>("Level", roots);
+    std::uint64_t leaves = 0;
+    for (const std::int32_t level : levels) {
+        if (level < 0 || level > max_subdivision_level) {
+            throw InputError(file.string(), "array 'Level': " + std::to_string(level) +
+                                                " is outside [0, " +
+                                                std::to_string(max_subdivision_level) + "]");
+        }
+        leaves += std::uint64_t{1} << (2 * level);
+    }
+    if (leaves > std::uint64_t{1} << 30) {
+        throw InputError(file.string(), "array 'Level': " + std::to_string(leaves) +
+                                            " leaves, at most 2^30 are accepted");
+    }
+    patches = subdivide_to_levels({levels.begin(), levels.end()});
+}
+
+}  // namespace
+
+PolyData surface_piece(const Solution& solution) {
+    const SurfaceMesh& mesh = solution.surface;
+    PolyData piece = triangles_of(mesh);
+    vtkCellData& cells = *piece->GetCellData();
+    for_triangle_members(
+        [&](const char* name, auto member) { add_member(cells, name, mesh.triangles, member); });
+    add_member(cells, "Level", solution.patches.roots, &RootPatches::level);
+    add_array(cells, "Normals", mesh.triangles.size(), [&](std::size_t i) {
+        return Spectrum(normal_of(mesh, static_cast<std::uint32_t>(i)));
+    });
+    cells.SetActiveNormals("Normals");
+    add_uvs(mesh, cells);
+    add_shot_sides(solution.direct.shot_sides, cells);
+
+    vtkFieldData& fields = *piece->GetFieldData();
+    for_material_members(
+        [&](const char* name, auto member) { add_member(fields, name, mesh.materials, member); });
+    for_camera_members(
+        [&](const char* name, auto member) { add_member(fields, name, solution.cameras, member); });
+    add_strings(fields, "ObjectName", mesh.objects);
+    add_value(fields, "FanCount", mesh.fan_count);
+    add_value(fields, "GridExponent", std::int32_t{mesh.grid.exponent});
+    add_value(fields, "GridLargestMove", mesh.grid.largest_move);
+    return piece;
+}
+
+void read_surface_piece(vtkPolyData& piece, const Path& file, Solution& solution) {
+    SurfaceMesh& mesh = solution.surface;
+    read_triangles(piece, file, mesh);
+    const ArrayReader cells{*piece.GetCellData(), file};
+    for_triangle_members(
+        [&](const char* name, auto member) { read_member(cells, name, mesh.triangles, member); });
+    read_levels(cells, file, mesh.triangles.size(), solution.patches);
+    read_uvs(cells, mesh);
+    read_shot_sides(cells, mesh.triangles.size(), solution.direct.shot_sides);
+
+    const ArrayReader fields{*piece.GetFieldData(), file};
+    mesh.materials.resize(fields.read_strings("MaterialName").size());
+    for_material_members(
+        [&](const char* name, auto member) { read_member(fields, name, mesh.materials, member); });
+    solution.cameras.resize(fields.read_strings("CameraName").size());
+    for_camera_members([&](const char* name, auto member) {
+        read_member(fields, name, solution.cameras, member);
+    });
+    mesh.objects = fields.read_strings("ObjectName");
+    mesh.fan_count = fields.read_value<std::uint32_t>("FanCount");
+    mesh.grid.exponent = fields.read_value<std::int32_t>("GridExponent");
+    mesh.grid.largest_move = fields.read_value<double>("GridLargestMove");
+}
+
+}  // namespace transillum

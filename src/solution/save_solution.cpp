@@ -1,0 +1,61 @@
+#include <transillum/solution/save_solution.h>
+
+#include "check_solution.h"
+#include "index_file.h"
+#include "pieces/pieces.h"
+#include "replace_files.h"
+#include "run_record.h"
+#include "stored_patches.h"
+#include "vtk_bytes.h"
+
+#include <transillum/base/error.h>
+
+#include <algorithm>
+
+namespace transillum {
+
+namespace {
+
+using NamedBytes = std::vector<std::pair<std::string, std::string>>;
+
+/// The name also stands in the index file, which is XML.
+void check_name(const Path& path) {
+    const std::string name = path.stem().string();
+    const bool has_control_codes = std::any_of(
+        name.begin(), name.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; });
+    if (path.extension() != ".vtm" || name.empty() || has_control_codes) {
+        throw UsageError(path.string() + ": a solution is written to NAME.vtm");
+    }
+}
+
+NamedBytes format_pieces(const Solution& solution, const Path& folder) {
+    NamedBytes pieces;
+    const auto add = [&](const char* name, const PolyData& piece) {
+        pieces.emplace_back(name, to_vtp(*piece, folder / (std::string(name) + ".vtp")));
+    };
+    const Patches stored = stored_patches(solution);
+    add("radiance", radiance_piece(solution, stored));
+    if (!solution.direct.samples.empty()) add("incoming", incoming_piece(solution, stored));
+    add("lights", lights_piece(solution.direct));
+    const PolyData surface = surface_piece(solution);
+    add_summary(solution, *surface->GetFieldData());
+    add("surface", surface);
+    return pieces;
+}
+
+}  // namespace
+
+void save_solution(const Solution& solution, const RunRecord& run, const Path& path) {
+    check_name(path);
+    if (const std::string defect = find_defect(solution); !defect.empty()) {
+        throw Error(path.string() + ": not saved, the solution is unsound: " + defect);
+    }
+    SolutionFiles files;
+    files.pieces = format_pieces(solution, Path(path).replace_extension());
+    files.index = format_index(index_of(path.stem().string(), files.pieces));
+    for (auto& [name, bytes] : files.pieces) name += ".vtp";
+    files.pieces.emplace_back("run.json", format_run_record(run));
+    replace_files(files, path);
+}
+
+}  // namespace transillum

@@ -1,0 +1,141 @@
+#include "stored_patches.h"
+
+#include "vtk_arrays.h"
+
+#include <transillum/base/error.h>
+
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkNew.h>
+#include <vtkPoints.h>
+
+#include <limits>
+
+namespace transillum {
+
+namespace {
+
+bool shines(const Solution& solution, std::uint32_t patch) {
+    const Spectrum zero(0.0f);
+    return solution.emission(patch) != zero || solution.direct_irradiance[patch] != zero ||
+           solution.indirect_irradiance[patch] != zero;
+}
+
+bool stores_side(const Solution& solution, std::uint32_t first, std::uint32_t count) {
+    if (!solution.reflects(first) && !solution.emits(first)) return false;
+    for (std::uint32_t patch = first; patch < first + count; ++patch) {
+        if (shines(solution, patch)) return true;
+    }
+    return false;
+}
+
+std::uint32_t leaves_of(const RootPatches& root) {
+    return 1u << (2 * root.level);
+}
+
+/// The triangular lattice of a root's leaf corners, row by row along b1.
+struct Lattice {
+    int level;
+    [[nodiscard]] int side() const { return 1 << level; }
+    [[nodiscard]] vtkIdType number(glm::ivec2 b) const {
+        return vtkIdType{b.x} * (side() + 1) - vtkIdType{b.x} * (b.x - 1) / 2 + b.y;
+    }
+};
+
+void insert_points(const SurfaceMesh& mesh, std::uint32_t root, int level, vtkPoints& points) {
+    const int side = Lattice{level}.side();
+    for (int i = 0; i <= side; ++i) {
+        for (int j = 0; i + j <= side; ++j) {
+            const glm::dvec3 p = point_of_root(mesh, root, {i, j}, level);
+            points.InsertNextPoint(p.x, p.y, p.z);
+        }
+    }
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> stored_patches(const Solution& solution) {
+    std::vector<std::uint32_t> stored;
+    for (const std::uint32_t side_offset : {0u, solution.patches.leaf_count}) {
+        for (const RootPatches& root : solution.patches.roots) {
+            const std::uint32_t first = side_offset + root.first_leaf;
+            if (!stores_side(solution, first, leaves_of(root))) continue;
+            for (std::uint32_t i = 0; i < leaves_of(root); ++i) stored.push_back(first + i);
+        }
+    }
+    return stored;
+}
+
+vtkSmartPointer<vtkPolyData> patch_cells(const Solution& solution,
+                                         const std::vector<std::uint32_t>& stored) {
+    const PatchHierarchy& patches = solution.patches;
+    vtkNew<vtkPoints> points;
+    points->SetDataTypeToDouble();
+    vtkNew<vtkCellArray> triangles;
+    const bool fits_32_bits = stored.size() < std::numeric_limits<std::int32_t>::max() / 3;
+    if (fits_32_bits) triangles->Use32BitStorage();
+    triangles->AllocateExact(static_cast<vtkIdType>(stored.size()),
+                             static_cast<vtkIdType>(3 * stored.size()));
+
+    vtkIdType first_point = 0;
+    for (const std::uint32_t patch : stored) {
+        const std::uint32_t leaf = patches.leaf_of_patch(patch);
+        const std::uint32_t root = patches.root_of_leaf[leaf];
+        const Lattice lattice{patches.roots[root].level};
+        if (leaf == patches.roots[root].first_leaf) {
+            first_point = points->GetNumberOfPoints();
+            insert_points(solution.surface, root, lattice.level, *points);
+        }
+        std::array<vtkIdType, 3> corners{};
+        const auto barycentric = leaf_corners(patches, leaf);
+        for (std::size_t i = 0; i < 3; ++i) {
+            corners[i] = first_point + lattice.number(barycentric[i]);
+        }
+        if (patches.is_back(patch)) std::swap(corners[1], corners[2]);
+        triangles->InsertNextCell(3, corners.data());
+    }
+
+    auto cells = vtkSmartPointer<vtkPolyData>::New();
+    cells->SetPoints(points);
+    cells->SetPolys(triangles);
+    const auto root_of = [&](std::size_t i) {
+        return patches.root_of_leaf[patches.leaf_of_patch(stored[i])];
+    };
+    add_array(*cells->GetCellData(), "Root", stored.size(), root_of);
+    add_array(*cells->GetCellData(), "Leaf", stored.size(), [&](std::size_t i) {
+        return patches.leaf_of_patch(stored[i]) - patches.roots[root_of(i)].first_leaf;
+    });
+    add_array(*cells->GetCellData(), "Side", stored.size(),
+              [&](std::size_t i) { return std::uint8_t{patches.is_back(stored[i])}; });
+    return cells;
+}
+
+std::vector<std::uint32_t> read_patches(vtkPolyData& cells, const PatchHierarchy& patches,
+                                        const std::filesystem::path& file) {
+    const auto count = static_cast<std::size_t>(cells.GetNumberOfCells());
+    const ArrayReader reader{*cells.GetCellData(), file};
+    const auto roots = reader.read<std::uint32_t>("Root", count);
+    const auto leaves = reader.read<std::uint32_t>("Leaf", count);
+    const auto sides = reader.read_flags("Side", count);
+
+    std::vector<std::uint32_t> stored(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::string cell = "cell " + std::to_string(i);
+        if (roots[i] >= patches.roots.size()) {
+            throw InputError(file.string(), cell + ": root " + std::to_string(roots[i]) + " of " +
+                                                std::to_string(patches.roots.size()));
+        }
+        const RootPatches& root = patches.roots[roots[i]];
+        stored[i] = root.first_leaf + leaves[i] + (sides[i] ? patches.leaf_count : 0u);
+        const bool begins = i == 0 || leaves[i - 1] + 1 == leaves_of(patches.roots[roots[i - 1]]);
+        const bool in_order = begins ? leaves[i] == 0 && (i == 0 || stored[i] > stored[i - 1])
+                                     : stored[i] == stored[i - 1] + 1;
+        const bool whole = i + 1 < count || leaves[i] + 1 == leaves_of(root);
+        if (leaves[i] >= leaves_of(root) || !in_order || !whole) {
+            throw InputError(file.string(), cell + ": patches out of order or missing");
+        }
+    }
+    return stored;
+}
+
+}  // namespace transillum

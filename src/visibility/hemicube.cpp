@@ -1,0 +1,237 @@
+#include <transillum/base/error.h>
+#include <transillum/visibility/hemicube.h>
+
+#include "visibility/scan_convert.h"
+
+#include <glm/geometric.hpp>
+
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <string>
+
+namespace transillum {
+
+/// A face at distance 1; pixel (x, y) looks along forward + s * right + t * up.
+struct Hemicube::Face {
+    glm::dvec3 right, up, forward;
+    glm::dvec3 zenith;   ///< the hemicube's axis
+    int width, height;   ///< [pixels]
+    double bottom;       ///< t of the lower edge: -1, or 0 where the horizon is
+    double pixel;        ///< edge of a pixel
+
+    [[nodiscard]] glm::dvec3 towards(int x, int y) const {
+        return forward + right * ((x + 0.5) * pixel - 1.0) + up * ((y + 0.5) * pixel + bottom);
+    }
+    /// Cosine-weighted solid angle of a pixel: cos / |d|^3 dA, cos = d.zenith / |d|.
+    [[nodiscard]] double weight(const glm::dvec3& d) const {
+        const double squared = glm::dot(d, d);
+        return pixel * pixel * glm::dot(d, zenith) / (squared * squared);
+    }
+};
+
+namespace {
+
+constexpr std::uint32_t nothing = 0xffffffffu;
+/// Triangles are clipped at this multiple of a face's half width, and scissored within it.
+constexpr double guard_band = 4.0;
+
+struct Outline {
+    std::array<glm::dvec3, 9> p;
+    int count = 0;
+};
+
+/// Keeps what lies where dot(p, plane) >= 0.
+Outline clip(const Outline& in, const glm::dvec3& plane, double offset) {
+    Outline out;
+    for (int i = 0; i < in.count; ++i) {
+        const glm::dvec3 &a = in.p[i], &b = in.p[(i + 1) % in.count];
+        const double da = glm::dot(a, plane) - offset, db = glm::dot(b, plane) - offset;
+        if (da >= 0.0) out.p[out.count++] = a;
+        if ((da < 0.0) != (db < 0.0)) out.p[out.count++] = a + (b - a) * (da / (da - db));
+    }
+    return out;
+}
+
+/// In face coordinates: what is in front and within the guard band.
+Outline clip_to_guard_band(Outline outline, double nearest) {
+    outline = clip(outline, {0, 0, 1}, nearest);
+    for (const glm::dvec3& plane : {glm::dvec3(1, 0, guard_band), glm::dvec3(-1, 0, guard_band),
+                                    glm::dvec3(0, 1, guard_band), glm::dvec3(0, -1, guard_band)}) {
+        if (outline.count < 3) break;
+        outline = clip(outline, plane, 0.0);
+    }
+    return outline;
+}
+
+}  // namespace
+
+Hemicube::Hemicube(const SurfaceMesh& mesh, const PatchHierarchy& patches, int resolution)
+    : mesh_(mesh), patches_(patches), resolution_(resolution), sums_(patches.patch_count()), views_(patches.patch_count()) {
+    if (resolution < 16 || resolution > 4096 || resolution % 2 != 0)
+        throw UsageError("hemicube resolution " + std::to_string(resolution) + "; accepted: 16 to 4096, even");
+    pixels_.resize(5);
+}
+
+Hemicube::~Hemicube() = default;
+
+const std::vector<PatchView>& Hemicube::look(const glm::dvec3& position, const glm::dmat3& frame) {
+    position_ = position;
+    frame_ = frame;
+    const double pixel = 2.0 / resolution_;
+    const glm::dvec3 &x = frame[0], &y = frame[1], &z = frame[2];
+    const int half = resolution_ / 2;
+    faces_ = {{x, y, z, z, resolution_, resolution_, -1.0, pixel},
+              {y, z, x, z, resolution_, half, 0.0, pixel},
+              {-y, z, -x, z, resolution_, half, 0.0, pixel},
+              {-x, z, y, z, resolution_, half, 0.0, pixel},
+              {x, z, -y, z, resolution_, half, 0.0, pixel}};
+    std::fill(sums_.begin(), sums_.end(), PatchSums{});
+    for (std::size_t i = 0; i < faces_.size(); ++i) {
+        pixels_[i].assign(std::size_t{1} * faces_[i].width * faces_[i].height, {std::numeric_limits<float>::infinity(), nothing});
+        draw_face(faces_[i]);
+    }
+    double seen_total = 0.0, view_total = 0.0;
+    for (const Face& face : faces_) add_seen(face);
+    for (std::uint32_t p = 0; p < sums_.size(); ++p) {
+        views_[p] = sums_[p].area > 0.0 ? view_of(sums_[p], p) : view_of_missed(p);
+        seen_total += sums_[p].seen;
+        view_total += leaf_area(mesh_, patches_, patches_.root_of_leaf[patches_.leaf_of_patch(p)]) *
+                      views_[p].mean_kernel * views_[p].visibility;
+    }
+    if (view_total > 0.0)
+        for (PatchView& v : views_) v.mean_kernel = static_cast<float>(v.mean_kernel * (seen_total / view_total));
+    return views_;
+}
+
+void Hemicube::draw_face(const Face& face) {
+    for (std::uint32_t root = 0; root < mesh_.triangles.size(); ++root) draw_root(face, root);
+}
+
+void Hemicube::draw_root(const Face& face, std::uint32_t root) {
+    const auto& vertices = mesh_.triangles[root].vertices;
+    Outline outline;
+    outline.count = 3;
+    std::array<glm::dvec3, 3> corner;
+    for (int i = 0; i < 3; ++i) {
+        corner[i] = mesh_.positions[vertices[i]] - position_;
+        outline.p[i] = {glm::dot(corner[i], face.right), glm::dot(corner[i], face.up), glm::dot(corner[i], face.forward)};
+    }
+    const double size = std::max({std::abs(outline.p[0].z), std::abs(outline.p[1].z), std::abs(outline.p[2].z)});
+    outline = clip_to_guard_band(outline, size * 1e-9);
+    if (outline.count < 3) return;
+
+    // The plane of the root and its barycentric coordinates, as linear functions of the point.
+    const glm::dvec3 e1 = corner[1] - corner[0], e2 = corner[2] - corner[0];
+    const glm::dvec3 area_normal = glm::cross(e1, e2);
+    const double height = glm::dot(area_normal, corner[0]);
+    // Edge-on but for rounding: the plane the point itself lies on.
+    if (std::abs(height) <= 64.0 * std::numeric_limits<double>::epsilon() * glm::length(area_normal) * glm::length(corner[0])) return;
+    const glm::dvec3 normal = glm::normalize(area_normal);
+    const double per_area = 1.0 / glm::dot(area_normal, area_normal);
+    const glm::dvec3 to_b1 = glm::cross(e2, area_normal) * per_area, to_b2 = glm::cross(area_normal, e1) * per_area;
+    const bool back = height > 0.0;
+    const RootPatches& patches = patches_.roots[root];
+    const std::uint32_t first_patch = patches.first_leaf + (back ? patches_.leaf_count : 0);
+    auto& pixels = pixels_[static_cast<std::size_t>(&face - faces_.data())];
+
+    const auto span = [&](std::int32_t y, std::int32_t x0, std::int32_t x1) {
+        for (std::int32_t x = x0; x < x1; ++x) {
+            const glm::dvec3 d = face.towards(x, y);
+            const double facing = glm::dot(d, area_normal);
+            const double t = height / facing;
+            if (!(t > 0.0)) continue;
+            const glm::dvec3 hit = d * t - corner[0];
+            const std::uint32_t patch = first_patch + leaf_in_root(patches.level, static_cast<float>(glm::dot(hit, to_b1)),
+                                                                   static_cast<float>(glm::dot(hit, to_b2)));
+            const double squared = glm::dot(d, d);
+            PatchSums& s = sums_[patch];
+            s.covered += face.weight(d);
+            // dA = r^2 d(omega) / cos' with r = t |d|, d(omega) = pixel^2 / |d|^3, cos' = |d.n| / |d|
+            s.area += face.pixel * face.pixel * t * t / std::abs(glm::dot(d, normal));
+            Pixel& pixel = pixels[static_cast<std::size_t>(y) * face.width + x];
+            const auto distance = static_cast<float>(t * std::sqrt(squared));
+            if (distance < pixel.distance) pixel = {distance, patch};
+        }
+    };
+    std::array<FixedPoint, 9> fixed;
+    const double unit = (1 << sub_pixel_bits) / face.pixel;
+    for (int i = 0; i < outline.count; ++i) {
+        const glm::dvec3& p = outline.p[i];
+        // Pixel centres lie at multiples of 256.
+        fixed[i] = {static_cast<std::int32_t>(std::lrint((p.x / p.z + 1.0) * unit)) - (1 << (sub_pixel_bits - 1)),
+                    static_cast<std::int32_t>(std::lrint((p.y / p.z - face.bottom) * unit)) - (1 << (sub_pixel_bits - 1))};
+    }
+    for (int i = 1; i + 1 < outline.count; ++i) {
+        std::array<FixedPoint, 3> triangle{fixed[0], fixed[i], fixed[i + 1]};
+        const std::int64_t area = twice_area(triangle[0], triangle[1], triangle[2]);
+        if (area == 0) continue;
+        if (area < 0) std::swap(triangle[1], triangle[2]);
+        for (int y = 0; y < face.height; y += tile_size)
+            for (int x = 0; x < face.width; x += tile_size)
+                scan_convert(triangle, {x, y, std::min(x + tile_size, face.width), std::min(y + tile_size, face.height)}, span);
+    }
+}
+
+void Hemicube::add_seen(const Face& face) {
+    const auto& pixels = pixels_[static_cast<std::size_t>(&face - faces_.data())];
+    for (int y = 0; y < face.height; ++y)
+        for (int x = 0; x < face.width; ++x) {
+            const Pixel& pixel = pixels[static_cast<std::size_t>(y) * face.width + x];
+            if (pixel.patch != nothing) sums_[pixel.patch].seen += face.weight(face.towards(x, y));
+        }
+}
+
+/// Share of a leaf's area above the hemicube's horizon.
+double Hemicube::front_share(std::uint32_t leaf) const {
+    const std::uint32_t root = patches_.root_of_leaf[leaf];
+    Outline outline;
+    outline.count = 3;
+    const auto corners = leaf_corners(patches_, leaf);
+    int below = 0;
+    for (int i = 0; i < 3; ++i) {
+        outline.p[i] = point_of_root(mesh_, root, corners[i], patches_.roots[root].level) - position_;
+        below += glm::dot(outline.p[i], frame_[2]) < 0.0;
+    }
+    if (below == 0) return 1.0;
+    if (below == 3) return 0.0;
+    const Outline above = clip(outline, frame_[2], 0.0);
+    glm::dvec3 area(0.0);
+    for (int i = 1; i + 1 < above.count; ++i) area += glm::cross(above.p[i] - above.p[0], above.p[i + 1] - above.p[0]);
+    return 0.5 * glm::length(area) / leaf_area(mesh_, patches_, root);
+}
+
+/// Ratio of flux to area over the patch's own pixels: where pixels are few, their errors cancel.
+PatchView Hemicube::view_of(const PatchSums& sums, std::uint32_t patch) const {
+    const double share = front_share(patches_.leaf_of_patch(patch));
+    return {static_cast<float>(sums.covered / sums.area * share),
+            sums.covered > 0.0 ? static_cast<float>(std::min(1.0, sums.seen / sums.covered)) : 0.0f};
+}
+
+/// A patch between pixel centres: its centre, looked up in the nearest pixel.
+PatchView Hemicube::view_of_missed(std::uint32_t patch) const {
+    const std::uint32_t leaf = patches_.leaf_of_patch(patch), root = patches_.root_of_leaf[leaf];
+    glm::dvec3 centre(0.0);
+    for (const glm::ivec2& c : leaf_corners(patches_, leaf))
+        centre += point_of_root(mesh_, root, c, patches_.roots[root].level) / 3.0;
+    const glm::dvec3 d = centre - position_;
+    const double up = glm::dot(d, frame_[2]);
+    const double facing = glm::dot(d, normal_of(mesh_, root)) * (patches_.is_back(patch) ? 1.0 : -1.0);
+    if (up <= 0.0 || facing <= 0.0) return {};
+    for (std::size_t i = 0; i < faces_.size(); ++i) {
+        const Face& face = faces_[i];
+        const double forward = glm::dot(d, face.forward);
+        if (forward <= 0.0) continue;
+        const auto x = static_cast<int>(std::floor((glm::dot(d, face.right) / forward + 1.0) / face.pixel));
+        const auto y = static_cast<int>(std::floor((glm::dot(d, face.up) / forward - face.bottom) / face.pixel));
+        if (x < 0 || y < 0 || x >= face.width || y >= face.height) continue;
+        const Pixel& pixel = pixels_[i][static_cast<std::size_t>(y) * face.width + x];
+        const double squared = glm::dot(d, d), distance = std::sqrt(squared);
+        // Within a pixel's width of what is seen there.
+        const bool seen = distance <= pixel.distance * (1.0 + face.pixel);
+        return {static_cast<float>(up * facing / (squared * squared)), seen ? 1.0f : 0.0f};
+    }
+    return {};
+}
+
+}  // namespace transillum

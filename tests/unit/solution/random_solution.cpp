@@ -1,0 +1,244 @@
+#include "random_solution.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <random>
+#include <sstream>
+
+namespace transillum::test {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Uniform numbers in [0, 1), all bits in use.
+struct Dice {
+    std::mt19937_64 bits;
+    double number() { return std::ldexp(static_cast<double>(bits() >> 11), -53); }
+    float real() { return std::ldexp(static_cast<float>(bits() >> 40), -24); }
+    Spectrum spectrum() {
+        const float r = real(), g = real(), b = real();
+        return {r, g, b};
+    }
+    glm::dvec3 point() {
+        const double x = number(), y = number(), z = number();
+        return {x - 0.5, y - 0.5, z - 0.5};
+    }
+    std::uint32_t below(std::size_t n) { return static_cast<std::uint32_t>(bits() % n); }
+    std::string text() {
+        static const char* const texts[] = {"",        "plain",    "two words",  "<&>\"'",
+                                            "a\nb\tc", "Größe 光", "back\\slash"};
+        return texts[below(std::size(texts))];
+    }
+};
+
+Material random_material(Dice& dice, const Shape& shape, bool emits) {
+    Material material;
+    material.name = dice.text();
+    material.diffuse = dice.spectrum();
+    material.specular = dice.spectrum();
+    material.shininess = 100.0f * dice.real();
+    material.roughness = dice.real();
+    material.opacity = dice.real();
+    material.back_reflects = !shape.one_sided;
+    material.back_emits = dice.below(2) == 0;
+    if (emits && shape.lit) material.emission = 50.0f * dice.spectrum();
+    return material;
+}
+
+SurfaceMesh random_surface(Dice& dice, const Shape& shape) {
+    SurfaceMesh mesh;
+    mesh.materials = {random_material(dice, shape, false), random_material(dice, shape, true),
+                      random_material(dice, shape, false)};
+    mesh.objects = {dice.text(), dice.text()};
+    mesh.fan_count = 5;
+    mesh.grid = {-40, dice.number()};
+    for (std::size_t i = 0; i < shape.levels.size() + 2; ++i)
+        mesh.positions.push_back(dice.point());
+    for (std::uint32_t i = 0; i < shape.levels.size(); ++i) {
+        RootTriangle root;
+        root.vertices = {i, i + 1, i + 2};
+        root.fans = {dice.below(5), dice.below(5), dice.below(5)};
+        root.material = i % 3;
+        root.object = dice.below(2);
+        root.source_face = dice.below(1u << 31);
+        mesh.triangles.push_back(root);
+        for (int corner = 0; corner < 3 && shape.uvs; ++corner) {
+            const float u = dice.real(), v = dice.real();
+            mesh.uvs.emplace_back(4.0f * u - 2.0f, v);
+        }
+    }
+    return mesh;
+}
+
+void add_lights(Dice& dice, const Shape& shape, Solution& solution) {
+    const std::size_t roots = shape.levels.size();
+    for (int i = 0; i < shape.light_samples; ++i) {
+        solution.direct.samples.push_back({dice.point(), glm::dvec3(0.6, 0.0, -0.8), dice.number(),
+                                           dice.spectrum(), dice.below(roots), dice.below(2) == 0});
+    }
+    for (std::size_t i = 0; i < 2 * roots && shape.light_samples > 0; ++i) {
+        solution.direct.shot_sides.push_back(static_cast<std::uint8_t>(dice.below(2)));
+    }
+}
+
+/// Every third side stays dark unless it emits.
+void light_patch(Dice& dice, const Shape& shape, Solution& solution, std::uint32_t patch) {
+    const std::uint32_t root = solution.patches.root_of_leaf[solution.patches.leaf_of_patch(patch)];
+    const bool dark = (root + solution.patches.is_back(patch)) % 3 == 2 || !shape.lit;
+    const bool is_black = !solution.reflects(patch) && !solution.emits(patch);
+    const bool keeps_zeros = is_black || (dark && !solution.emits(patch));
+    const auto value = [&] { return keeps_zeros ? Spectrum(0.0f) : 3.0f * dice.spectrum(); };
+    const auto share = [&] { return keeps_zeros ? 0.0f : dice.real(); };
+    solution.direct_irradiance.push_back(value());
+    solution.indirect_irradiance.push_back(value());
+    solution.standard_error.push_back(value());
+    solution.coverage.push_back(share());
+    for (int i = 0; i < shape.light_samples; ++i) {
+        solution.direct.projected_solid_angle.push_back(share());
+        solution.direct.visibility.push_back(share());
+    }
+}
+
+void add_summary(Dice& dice, Solution& solution) {
+    solution.iterations = dice.bits();
+    solution.seed = dice.bits();
+    solution.relative_error = dice.number();
+    solution.interrupted = dice.below(2) == 0;
+    solution.balance = {dice.point(), dice.point(), dice.point(), dice.point()};
+    for (std::uint32_t i = dice.below(4); i > 0; --i) {
+        solution.decisions.push_back({dice.text(), dice.text()});
+        solution.settings.emplace_back(dice.text(), dice.text());
+    }
+    solution.scene_hash = dice.text();
+}
+
+// Structured bindings name every member: a member added later does not compile until it is
+// compared.
+auto tie_of(const Material& m) {
+    const auto& [name, diffuse, specular, shininess, roughness, emission, reflects, emits,
+                 opacity] = m;
+    return std::tie(name, diffuse, specular, shininess, roughness, emission, reflects, emits,
+                    opacity);
+}
+auto tie_of(const RootTriangle& t) {
+    const auto& [vertices, fans, material, object, source_face] = t;
+    return std::tie(vertices, fans, material, object, source_face);
+}
+auto tie_of(const Camera& c) {
+    const auto& [name, eye, look_at, up, fov] = c;
+    return std::tie(name, eye, look_at, up, fov);
+}
+auto tie_of(const LightSample& s) {
+    const auto& [position, normal, area, radiance, root, back] = s;
+    return std::tie(position, normal, area, radiance, root, back);
+}
+auto tie_of(const RootPatches& r) {
+    const auto& [first_leaf, level] = r;
+    return std::tie(first_leaf, level);
+}
+auto tie_of(const Decision& d) {
+    const auto& [what, why] = d;
+    return std::tie(what, why);
+}
+auto tie_of(const EnergyBalance& b) {
+    const auto& [emitted, absorbed, escaped, black_backs] = b;
+    return std::tie(emitted, absorbed, escaped, black_backs);
+}
+
+template <class T>
+void expect_equal_structs(const std::vector<T>& a, const std::vector<T>& b) {
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t i = 0; i < a.size(); ++i) EXPECT_TRUE(tie_of(a[i]) == tie_of(b[i])) << i;
+}
+
+void expect_equal(const SurfaceMesh& a, const SurfaceMesh& b) {
+    const auto& [positions, triangles, uvs, fan_count, materials, objects, grid] = a;
+    const auto& [exponent, largest_move] = grid;
+    EXPECT_TRUE(positions == b.positions);
+    EXPECT_TRUE(uvs == b.uvs);
+    EXPECT_EQ(fan_count, b.fan_count);
+    EXPECT_EQ(objects, b.objects);
+    EXPECT_EQ(exponent, b.grid.exponent);
+    EXPECT_EQ(largest_move, b.grid.largest_move);
+    expect_equal_structs(triangles, b.triangles);
+    expect_equal_structs(materials, b.materials);
+}
+
+void expect_equal(const PatchHierarchy& a, const PatchHierarchy& b) {
+    const auto& [roots, root_of_leaf, leaf_count] = a;
+    EXPECT_EQ(leaf_count, b.leaf_count);
+    EXPECT_EQ(root_of_leaf, b.root_of_leaf);
+    expect_equal_structs(roots, b.roots);
+}
+
+void expect_equal(const DirectLight& a, const DirectLight& b) {
+    const auto& [samples, projected_solid_angle, visibility, shot_sides] = a;
+    expect_equal_structs(samples, b.samples);
+    EXPECT_EQ(projected_solid_angle, b.projected_solid_angle);
+    EXPECT_EQ(visibility, b.visibility);
+    EXPECT_EQ(shot_sides, b.shot_sides);
+}
+
+}  // namespace
+
+Solution random_solution(const Shape& shape, unsigned seed) {
+    Dice dice{std::mt19937_64(seed)};
+    Solution solution;
+    solution.surface = random_surface(dice, shape);
+    solution.patches = subdivide_to_levels(shape.levels);
+    add_lights(dice, shape, solution);
+    for (std::uint32_t patch = 0; patch < solution.patches.patch_count(); ++patch) {
+        light_patch(dice, shape, solution, patch);
+    }
+    for (int i = 0; i < shape.cameras; ++i) {
+        solution.cameras.push_back(
+            {dice.text(), dice.point(), dice.point(), dice.point(), 1.0 + 178.0 * dice.number()});
+    }
+    add_summary(dice, solution);
+    return solution;
+}
+
+void expect_equal(const Solution& a, const Solution& b) {
+    const auto& [surface, patches, direct, cameras, direct_irradiance, indirect_irradiance,
+                 standard_error, coverage, iterations, seed, relative_error, interrupted, balance,
+                 decisions, settings, scene_hash] = a;
+    expect_equal(surface, b.surface);
+    expect_equal(patches, b.patches);
+    expect_equal(direct, b.direct);
+    expect_equal_structs(cameras, b.cameras);
+    EXPECT_TRUE(direct_irradiance == b.direct_irradiance);
+    EXPECT_TRUE(indirect_irradiance == b.indirect_irradiance);
+    EXPECT_TRUE(standard_error == b.standard_error);
+    EXPECT_EQ(coverage, b.coverage);
+    EXPECT_EQ(iterations, b.iterations);
+    EXPECT_EQ(seed, b.seed);
+    EXPECT_EQ(relative_error, b.relative_error);
+    EXPECT_EQ(interrupted, b.interrupted);
+    EXPECT_TRUE(tie_of(balance) == tie_of(b.balance));
+    expect_equal_structs(decisions, b.decisions);
+    EXPECT_EQ(settings, b.settings);
+    EXPECT_EQ(scene_hash, b.scene_hash);
+}
+
+fs::path fresh_folder() {
+    std::string pattern = (fs::path(testing::TempDir()) / "transillum_solution_XXXXXX").string();
+    if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no temporary folder");
+    return pattern;
+}
+
+std::map<std::string, std::string> files_below(const fs::path& folder) {
+    std::map<std::string, std::string> files;
+    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+        std::ostringstream bytes;
+        if (entry.is_regular_file()) bytes << std::ifstream(entry.path(), std::ios::binary).rdbuf();
+        files[fs::relative(entry.path(), folder).string()] = bytes.str();
+    }
+    return files;
+}
+
+}  // namespace transillum::test

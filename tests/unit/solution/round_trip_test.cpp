@@ -1,0 +1,136 @@
+#include "random_solution.h"
+
+#include <transillum/base/error.h>
+#include <transillum/solution/load_solution.h>
+
+#include <gmock/gmock.h>
+
+#include <limits>
+
+namespace transillum::test {
+
+namespace {
+
+class RoundTrip : public testing::TestWithParam<Shape> {};
+
+std::map<std::string, std::string> without_record(std::map<std::string, std::string> files) {
+    files.erase("room/run.json");
+    return files;
+}
+
+}  // namespace
+
+TEST_P(RoundTrip, KeepsEveryField) {
+    for (unsigned seed = 0; seed < 8; ++seed) {
+        const Solution solution = random_solution(GetParam(), seed);
+        const auto path = fresh_folder() / "room.vtm";
+        save_solution(solution, {}, path);
+        expect_equal(solution, load_solution(path));
+    }
+}
+
+TEST_P(RoundTrip, GivesTheSameBytesAgain) {
+    const auto first = fresh_folder(), second = fresh_folder(), third = fresh_folder();
+    const Solution solution = random_solution(GetParam(), 7);
+    save_solution(solution, {"bake a", 1, {{"load", 1.5}}}, first / "room.vtm");
+    save_solution(solution, {"bake b", 8, {}}, second / "room.vtm");
+    save_solution(load_solution(first / "room.vtm"), {}, third / "room.vtm");
+    const auto files = without_record(files_below(first));
+    EXPECT_EQ(files.size(), GetParam().light_samples > 0 ? 6u : 5u);
+    EXPECT_EQ(files, without_record(files_below(second)));
+    EXPECT_EQ(files, without_record(files_below(third)));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Shapes, RoundTrip,
+    testing::Values(Shape{}, Shape{.levels = {3}, .light_samples = 1},
+                    Shape{.light_samples = 0, .uvs = true}, Shape{.cameras = 0, .one_sided = true},
+                    Shape{.levels = {4, 0, 0, 1, 5, 2}, .light_samples = 40, .uvs = true},
+                    Shape{.lit = false}, Shape{.levels = {}, .light_samples = 0}));
+
+TEST(Solution, SurvivesAnyFileName) {
+    for (const std::string name :
+         {"a b", "<&>\"'", "&amp;", "Größe 光", "a.b", "100%25", "room.vtm"}) {
+        const Solution solution = random_solution({}, 3);
+        const auto path = fresh_folder() / (name + ".vtm");
+        save_solution(solution, {"x", 2, {}}, path);
+        expect_equal(solution, load_solution(path));
+        EXPECT_EQ(load_run_record(path).command_line, "x") << name;
+    }
+}
+
+TEST(Solution, DarkSidesCostNothing) {
+    const Shape lit{.levels = {6, 6, 6}, .light_samples = 0};
+    Shape dark = lit;
+    dark.lit = false;
+    const auto folder = fresh_folder();
+    save_solution(random_solution(lit, 1), {}, folder / "lit.vtm");
+    save_solution(random_solution(dark, 1), {}, folder / "dark.vtm");
+    const auto files = files_below(folder);
+    // 4 of 6 sides at 4^6 leaves hold at least 9 random floats a leaf; none of that is left in the
+    // dark.
+    EXPECT_GT(files.at("lit/radiance.vtp").size(), std::size_t{4 * 4096 * 9 * 3});
+    EXPECT_LT(files.at("dark/radiance.vtp").size(), std::size_t{16384});
+}
+
+TEST(Solution, CoverageOfDarkSidesLoadsAsZero) {
+    Solution solution = random_solution({.lit = false}, 1);
+    solution.coverage.assign(solution.coverage.size(), 1.0f);
+    const auto path = fresh_folder() / "room.vtm";
+    save_solution(solution, {}, path);
+    EXPECT_THAT(load_solution(path).coverage, testing::Each(0.0f));
+}
+
+TEST(Solution, RunRecordSurvives) {
+    const RunRecord run{"transillum bake \"a b\".obj", 8, {{"load", 0.25}, {"transport", 1e-3}}};
+    const auto path = fresh_folder() / "room.vtm";
+    save_solution(random_solution({}, 1), run, path);
+    const RunRecord loaded = load_run_record(path);
+    EXPECT_EQ(loaded.command_line, run.command_line);
+    EXPECT_EQ(loaded.threads, run.threads);
+    EXPECT_EQ(loaded.seconds, run.seconds);
+}
+
+TEST(Solution, RunRecordOfBytesThatAreNoTextIsStillWritten) {
+    const auto path = fresh_folder() / "room.vtm";
+    save_solution(random_solution({}, 1), {"bake \xff\xfe.obj", 1, {}}, path);
+    EXPECT_EQ(load_run_record(path).threads, 1);
+}
+
+TEST(Solution, RunRecordIsEmptyWhereThereIsNone) {
+    const auto path = fresh_folder() / "room.vtm";
+    EXPECT_EQ(load_run_record(path).threads, 0);
+    EXPECT_EQ(load_run_record(path).command_line, "");
+}
+
+TEST(Solution, UnsoundIsNotSaved) {
+    const std::vector<std::pair<std::string, void (*)(Solution&)>> defects{
+        {"direct irradiance of patch 0",
+         [](Solution& s) { s.direct_irradiance[0].y = std::numeric_limits<float>::quiet_NaN(); }},
+        {"indirect irradiance of patch 1", [](Solution& s) { s.indirect_irradiance[1].x = -1.0f; }},
+        {"standard error of patch", [](Solution& s) { s.standard_error.pop_back(); }},
+        {"visibility, entry 2", [](Solution& s) { s.direct.visibility[2] = 1.5f; }},
+        {"root 1 vertex: index 99 of 5",
+         [](Solution& s) { s.surface.triangles[1].vertices[2] = 99; }},
+        {"root 0 material", [](Solution& s) { s.surface.materials.clear(); }},
+        {"light sample 0 root", [](Solution& s) { s.direct.samples[0].root = 3; }},
+        {"camera 1 field of view", [](Solution& s) { s.cameras[1].vertical_fov = 180.0; }},
+        {"root 1 first leaf", [](Solution& s) { s.patches.roots[1].first_leaf = 2; }},
+        {"relative error",
+         [](Solution& s) { s.relative_error = std::numeric_limits<double>::infinity(); }},
+        {"zero byte", [](Solution& s) { s.surface.objects[0] = std::string("a\0b", 3); }}};
+    for (const auto& [message, spoil] : defects) {
+        const auto folder = fresh_folder();
+        Solution solution = random_solution({}, 1);
+        spoil(solution);
+        try {
+            save_solution(solution, {}, folder / "room.vtm");
+            ADD_FAILURE() << message;
+        } catch (const Error& error) {
+            EXPECT_THAT(error.what(), testing::HasSubstr(message));
+        }
+        EXPECT_TRUE(files_below(folder).empty());
+    }
+}
+
+}  // namespace transillum::test
