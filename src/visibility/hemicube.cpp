@@ -35,6 +35,8 @@ namespace {
 constexpr std::uint32_t nothing = 0xffffffffu;
 /// Triangles are clipped at this multiple of a face's half width, and scissored within it.
 constexpr double guard_band = 4.0;
+/// Heights over a plane, relative to the distance, that rounding alone can make.
+constexpr double rounding = 64.0 * std::numeric_limits<double>::epsilon();
 
 struct Outline {
     std::array<glm::dvec3, 9> p;
@@ -126,7 +128,7 @@ void Hemicube::draw_root(const Face& face, std::uint32_t root) {
     const glm::dvec3 area_normal = glm::cross(e1, e2);
     const double height = glm::dot(area_normal, corner[0]);
     // Edge-on but for rounding: the plane the point itself lies on.
-    if (std::abs(height) <= 64.0 * std::numeric_limits<double>::epsilon() * glm::length(area_normal) * glm::length(corner[0])) return;
+    if (std::abs(height) <= rounding * glm::length(area_normal) * glm::length(corner[0])) return;
     const glm::dvec3 normal = glm::normalize(area_normal);
     const double per_area = 1.0 / glm::dot(area_normal, area_normal);
     const glm::dvec3 to_b1 = glm::cross(e2, area_normal) * per_area, to_b2 = glm::cross(area_normal, e1) * per_area;
@@ -217,7 +219,7 @@ PatchView Hemicube::view_of_missed(std::uint32_t patch) const {
     const glm::dvec3 d = centre - position_;
     const double up = glm::dot(d, frame_[2]);
     const double facing = glm::dot(d, normal_of(mesh_, root)) * (patches_.is_back(patch) ? 1.0 : -1.0);
-    if (up <= 0.0 || facing <= 0.0) return {};
+    if (up <= rounding * glm::length(d) || facing <= rounding * glm::length(d)) return {};
     for (std::size_t i = 0; i < faces_.size(); ++i) {
         const Face& face = faces_[i];
         const double forward = glm::dot(d, face.forward);

@@ -1,0 +1,12 @@
+/// Scenes for measuring: a closed room with a grid of spheres in it.
+#pragma once
+
+#include <transillum/geometry/surface_mesh.h>
+
+namespace transillum::benchmarks {
+
+/// \param spheres along each edge of the grid; \param rings of a sphere's tessellation: 2 * rings * (rings - 1) * 2
+/// triangles each.
+[[nodiscard]] SurfaceMesh room_of_spheres(int spheres, int rings);
+
+}  // namespace transillum::benchmarks

@@ -1,0 +1,110 @@
+// Throughput of the transport against rays, and its scaling with leaves and triangles. Compare within one run.
+#include "benchmarks/scenes.h"
+
+#include <transillum/base/sampling.h>
+#include <transillum/transport/iterate.h>
+#include <transillum/visibility/transillumination_buffer.h>
+
+#include <benchmark/benchmark.h>
+#include <embree3/rtcore.h>
+
+namespace {
+
+using namespace transillum;
+using benchmarks::room_of_spheres;
+
+constexpr int window = 1000;
+constexpr int threads = 2;
+
+const SurfaceMesh& scene_of(std::int64_t thousand_triangles) {
+    static const SurfaceMesh small = room_of_spheres(1, 4);
+    static const SurfaceMesh middle = room_of_spheres(2, 41);    // 51 k
+    static const SurfaceMesh large = room_of_spheres(4, 39);     // 374 k
+    return thousand_triangles < 10 ? small : thousand_triangles < 100 ? middle : large;
+}
+
+/// Arguments: thousands of triangles, level of every root.
+void whole_iteration(benchmark::State& state) {
+    const SurfaceMesh& mesh = scene_of(state.range(0));
+    const PatchHierarchy patches = subdivide_to_levels(
+        std::vector<int>(mesh.triangles.size(), static_cast<int>(state.range(1))));
+    const std::uint32_t n = patches.patch_count();
+    const PatchSources sources{std::vector<Spectrum>(n, Spectrum(1.0f)), std::vector<Spectrum>(n, Spectrum(0.0f)),
+                               std::vector<Spectrum>(n, Spectrum(0.5f))};
+    const Workers workers(threads);
+    Monitor silent;
+    IterationOptions options;
+    options.iterations = 128;
+    options.pixel_size = pixel_size_for(mesh, window);
+    std::uint64_t fragments = 0, directions = 0;
+    for (auto _ : state) {
+        const TransportResult result = iterate(mesh, patches, sources, options, workers, silent);
+        fragments += result.fragments;
+        directions += result.iterations;
+    }
+    state.counters["fragments/s"] = benchmark::Counter(static_cast<double>(fragments), benchmark::Counter::kIsRate);
+    state.counters["s/direction"] = benchmark::Counter(static_cast<double>(directions), benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+    state.counters["triangles"] = static_cast<double>(mesh.triangles.size());
+    state.counters["leaves"] = patches.leaf_count;
+}
+
+RTCScene embree_scene(RTCDevice device, const SurfaceMesh& mesh) {
+    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, mesh.positions.size()));
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+        for (int k = 0; k < 3; ++k) vertices[3 * i + k] = static_cast<float>(mesh.positions[i][k]);
+    auto* indices = static_cast<unsigned*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, mesh.triangles.size()));
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+        for (int k = 0; k < 3; ++k) indices[3 * i + k] = mesh.triangles[i].vertices[k];
+    rtcCommitGeometry(geometry);
+    RTCScene scene = rtcNewScene(device);
+    rtcAttachGeometry(scene, geometry);
+    rtcReleaseGeometry(geometry);
+    rtcCommitScene(scene);
+    return scene;
+}
+
+/// Argument: thousands of triangles. Rays from random points of the room in random directions, one at a time.
+void incoherent_rays(benchmark::State& state) {
+    RTCDevice device = rtcNewDevice(nullptr);
+    RTCScene scene = embree_scene(device, scene_of(state.range(0)));
+    const Workers workers(threads);
+    constexpr std::size_t rays = 1 << 18;
+    std::vector<RTCRay> prepared(rays);
+    Random random(1, 2);
+    for (RTCRay& ray : prepared) {
+        const glm::dvec3 d = uniform_direction(random.next(), random.next());
+        ray = {};
+        ray.org_x = static_cast<float>(random.next());
+        ray.org_y = static_cast<float>(random.next());
+        ray.org_z = static_cast<float>(random.next());
+        ray.dir_x = static_cast<float>(d.x);
+        ray.dir_y = static_cast<float>(d.y);
+        ray.dir_z = static_cast<float>(d.z);
+        ray.tfar = std::numeric_limits<float>::infinity();
+        ray.mask = ~0u;
+    }
+    for (auto _ : state) {
+        workers.for_ranges(rays, 4096, [&](std::size_t begin, std::size_t end, int) {
+            RTCIntersectContext context;
+            rtcInitIntersectContext(&context);
+            for (std::size_t i = begin; i < end; ++i) {
+                RTCRayHit ray{prepared[i], {}};
+                ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+                rtcIntersect1(scene, &context, &ray);
+                benchmark::DoNotOptimize(ray.ray.tfar);
+            }
+        });
+    }
+    state.counters["rays/s"] = benchmark::Counter(static_cast<double>(rays * state.iterations()), benchmark::Counter::kIsRate);
+    rtcReleaseScene(scene);
+    rtcReleaseDevice(device);
+}
+
+BENCHMARK(incoherent_rays)->Arg(1)->Arg(51)->Arg(374)->UseRealTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(whole_iteration)->Args({1, 5})->Args({51, 0})->Args({51, 1})->Args({51, 2})->Args({374, 0})
+    ->UseRealTime()->Unit(benchmark::kMillisecond);
+
+}  // namespace
+
+BENCHMARK_MAIN();
