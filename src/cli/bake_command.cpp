@@ -35,8 +35,8 @@ void add_options(CLI::App& command, BakeArguments& a) {
         ->check(CLI::NonNegativeNumber)->capture_default_str()->group(stopping);
 
     const char* const patches = "Patches";
-    command.add_option("--leaves", a.bake.subdivision.leaf_target, "about so many leaf patches")
-        ->check(CLI::Range(1u, 1u << 28))->capture_default_str()->group(patches);
+    command.add_option("--leaves", a.bake.subdivision.leaf_target, "about so many leaf patches; 0: 30000 more than triangles")
+        ->check(CLI::Range(0u, 1u << 28))->capture_default_str()->group(patches);
     command.add_option("--patch-size", a.bake.subdivision.patch_size, "longest edge of a leaf [scene units], instead of --leaves")
         ->check(CLI::NonNegativeNumber)->capture_default_str()->group(patches);
     command.add_option("--max-level", a.bake.subdivision.max_level, "most subdivisions of a triangle")
@@ -78,7 +78,8 @@ int run(const BakeArguments& a, const Common& common) {
     record.command_line = common.command_line;
     Solution solution = bake(scene, a.bake, workers, console, &record);
     solution.settings.emplace_back("max-albedo", fmt::format("{}", a.scene.max_albedo));
-    solution.settings.emplace_back("sides", std::to_string(static_cast<int>(a.scene.load.sides)));
+    const char* const sides[] = {"file", "one", "two"};
+    solution.settings.emplace_back("sides", sides[static_cast<int>(a.scene.load.sides)]);
     const SpectrumSum lost = solution.balance.black_backs;
     if (luminance(lost) > 0.001 * luminance(solution.balance.emitted))
         console.warn(fmt::format("{:.1f} % of the light met black backs: is the mesh wound inside out? (--sides two)",

@@ -1,5 +1,7 @@
 #include "cli/camera_options.h"
 
+#include "cli/scene_options.h"
+
 #include <transillum/base/error.h>
 #include <transillum/render/render_solution.h>
 
@@ -35,6 +37,14 @@ void add_image_options(CLI::App& command, ImageOptions& options) {
     command.add_option("--exposure", options.tone.exposure, "brighten the PNG by so many stops")->capture_default_str()->group("Output");
     command.add_flag("!--no-auto-exposure", options.tone.automatic, "a radiance of 1 is white (default: middle grey is the median)")
         ->group("Output");
+}
+
+void require_writable(const ImageOptions& options) {
+    for (const std::string& path : options.paths) {
+        if (!path.ends_with(".exr") && !path.ends_with(".png"))
+            throw UsageError("--output " + path + "; accepted: a name that ends in .exr or .png");
+        require_writable(path);
+    }
 }
 
 Camera make_camera(const CameraOptions& options, const std::vector<Camera>& cameras, const SurfaceMesh& surface) {

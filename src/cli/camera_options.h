@@ -29,6 +29,9 @@ void add_image_options(CLI::App& command, ImageOptions& options);
 /// \throws UsageError for an unknown name, an impossible view, or a name beside a free view.
 [[nodiscard]] Camera make_camera(const CameraOptions& options, const std::vector<Camera>& cameras, const SurfaceMesh& surface);
 
+/// \throws UsageError for another extension than .exr and .png, IoError as require_writable.
+void require_writable(const ImageOptions& options);
+
 /// "640x480". \throws UsageError unless both are in [1, 16384].
 struct Size { int width, height; };
 [[nodiscard]] Size parse_size(const std::string& text);

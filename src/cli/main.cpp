@@ -3,9 +3,11 @@
 
 #include <transillum/base/error.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <string>
 
 namespace {
 
@@ -20,6 +22,15 @@ std::string join(int argc, char** argv) {
 int fail(const char* what, int exit_code) {
     std::fprintf(stderr, "transillum: %s\n", what);
     return exit_code;
+}
+
+/// What is wrong with the command line. An unknown option says more than the argument that it displaced.
+std::string describe(const CLI::App& program, const CLI::ParseError& error) {
+    for (const std::string& word : program.remaining(true))
+        if (word.starts_with('-')) return "unknown option " + word + "; accepted: those of --help";
+    std::string line = error.what();
+    std::ranges::replace(line, '\n', ' ');
+    return line + "; --help lists what is accepted";
 }
 
 int parse_and_run(int argc, char** argv) {
@@ -39,8 +50,10 @@ int parse_and_run(int argc, char** argv) {
     add_reference(program, common, exit_code);
     try {
         program.parse(argc, argv);
+    } catch (const CLI::Success& e) {
+        return program.exit(e);
     } catch (const CLI::ParseError& e) {
-        return program.exit(e) == 0 ? ExitCode::done : ExitCode::usage;
+        return fail(describe(program, e).c_str(), ExitCode::usage);
     }
     return exit_code;
 }

@@ -23,7 +23,7 @@ struct ReferenceArguments {
 
 int run(ReferenceArguments& a, const Common& common) {
     Console console(common.quiet);
-    for (const std::string& path : a.image.paths) require_writable(path);
+    require_writable(a.image);
     const auto [width, height] = parse_size(a.camera.size);
     a.path_trace.width = width;
     a.path_trace.height = height;
@@ -31,9 +31,8 @@ int run(ReferenceArguments& a, const Common& common) {
     const SurfaceMesh surface = build_surface(scene, {}, console);
     const Camera camera = make_camera(a.camera, scene.cameras, surface);
     const Image image = path_trace(surface, camera, a.path_trace, Workers(a.threads), console);
-    if (console.stop_requested()) return ExitCode::interrupted;
     for (const std::string& path : a.image.paths) write_image(image, path, a.image.tone);
-    return ExitCode::done;
+    return console.stop_requested() ? ExitCode::interrupted : ExitCode::done;
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ Components chosen(const std::vector<std::string>& words) {
 
 int run(RenderArguments& a, const Common& common) {
     Console console(common.quiet);
-    for (const std::string& path : a.image.paths) require_writable(path);
+    require_writable(a.image);
     const auto [width, height] = parse_size(a.camera.size);
     a.render.width = width;
     a.render.height = height;

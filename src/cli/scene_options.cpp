@@ -4,6 +4,7 @@
 #include <transillum/scene/limit_albedo.h>
 
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <unistd.h>
@@ -32,7 +33,9 @@ void require_writable(const std::string& path) {
     const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
     if (!std::filesystem::is_directory(folder)) throw IoError(path, "its folder does not exist; accepted: an existing one");
     if (std::filesystem::is_directory(file)) throw IoError(path, "is a folder; accepted: a file's name");
-    if (access(folder.c_str(), W_OK) != 0) throw IoError(path, std::string("cannot write to its folder: ") + std::strerror(errno));
+    std::string trial = (folder / ".transillum.XXXXXX").string();
+    if (!mkdtemp(trial.data())) throw IoError(path, std::string("cannot write to its folder: ") + std::strerror(errno));
+    rmdir(trial.c_str());
 }
 
 }  // namespace transillum::cli

@@ -27,10 +27,14 @@ struct PositionHash {
     }
 };
 
-int grid_exponent(const std::vector<glm::dvec3>& positions) {
+int grid_exponent(const Scene& scene) {
     double largest = 0.0;
-    for (const glm::dvec3& p : positions)
+    for (const glm::dvec3& p : scene.positions) {
+        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+            throw InputError(scene.path, "vertex " + std::to_string(&p - scene.positions.data()) +
+                                             " has a coordinate that is no finite number; accepted: finite ones");
         largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    }
     if (largest == 0.0) return -grid_bits;
     int exponent = 0;
     std::frexp(largest, &exponent);  // largest < 2^exponent
@@ -43,9 +47,9 @@ glm::dvec3 snap(const glm::dvec3& p, int exponent) {
 }
 
 /// Snaps and merges; returns the new index of every old position.
-std::vector<std::uint32_t> weld(const std::vector<glm::dvec3>& positions, SurfaceMesh& mesh,
-                                SurfaceReport& report) {
-    mesh.grid.exponent = grid_exponent(positions);
+std::vector<std::uint32_t> weld(const Scene& scene, SurfaceMesh& mesh, SurfaceReport& report) {
+    const std::vector<glm::dvec3>& positions = scene.positions;
+    mesh.grid.exponent = grid_exponent(scene);
     std::unordered_map<glm::dvec3, std::uint32_t, PositionHash> index;
     std::vector<std::uint32_t> renumbered;
     renumbered.reserve(positions.size());
@@ -66,6 +70,11 @@ std::array<std::uint32_t, 3> turned(std::array<std::uint32_t, 3> v) {
     return v;
 }
 
+/// On one line, or so nearly that the cross product rounds to nothing and there is no normal.
+bool has_no_area(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+    return are_collinear(a, b, c) || glm::cross(b - a, c - a) == glm::dvec3(0.0);
+}
+
 void add_polygon(const Scene& scene, const Polygon& polygon, const std::vector<std::uint32_t>& renumbered,
                  SurfaceMesh& mesh, std::set<std::array<std::uint32_t, 3>>& seen, SurfaceReport& report) {
     std::vector<glm::dvec3> outline;
@@ -79,7 +88,7 @@ void add_polygon(const Scene& scene, const Polygon& polygon, const std::vector<s
     for (const auto& corner : triangles) {
         RootTriangle t{.material = polygon.material, .object = polygon.object, .source_face = polygon.source_face};
         for (int i = 0; i < 3; ++i) t.vertices[i] = vertices[corner[i]];
-        if (are_collinear(outline[corner[0]], outline[corner[1]], outline[corner[2]])) {
+        if (has_no_area(outline[corner[0]], outline[corner[1]], outline[corner[2]])) {
             ++report.degenerate;
         } else if (!seen.insert(turned(t.vertices)).second) {
             ++report.duplicate;
@@ -108,7 +117,7 @@ SurfaceMesh build_surface(const Scene& scene, const SurfaceOptions& options, Mon
     SurfaceMesh mesh;
     mesh.materials = scene.materials;
     mesh.objects = scene.objects;
-    const std::vector<std::uint32_t> renumbered = weld(scene.positions, mesh, counts);
+    const std::vector<std::uint32_t> renumbered = weld(scene, mesh, counts);
     std::set<std::array<std::uint32_t, 3>> seen;
     for (const Polygon& polygon : scene.polygons)
         add_polygon(scene, polygon, renumbered, mesh, seen, counts);

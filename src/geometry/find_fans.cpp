@@ -47,8 +47,18 @@ bool is_complex(const HalfEdgeMesh& mesh, const std::array<OpenMesh::VertexHandl
     return false;
 }
 
+/// OpenMesh says on its own error stream which faces it cannot link; they are dealt with here.
+class QuietOpenMesh {
+public:
+    QuietOpenMesh() { omerr().disable(); }
+    ~QuietOpenMesh() { omerr().enable(); }
+    QuietOpenMesh(const QuietOpenMesh&) = delete;
+    QuietOpenMesh& operator=(const QuietOpenMesh&) = delete;
+};
+
 /// Face i of the half-edge mesh is triangle i; a triangle that would make it non-manifold gets vertices of its own.
 HalfEdgeMesh make_half_edges(const SurfaceMesh& mesh, SurfaceReport& report) {
+    const QuietOpenMesh quiet;
     HalfEdgeMesh half_edges;
     const auto add = [&](std::uint32_t vertex) {
         const glm::dvec3& p = mesh.positions[vertex];
@@ -58,10 +68,9 @@ HalfEdgeMesh make_half_edges(const SurfaceMesh& mesh, SurfaceReport& report) {
     for (const RootTriangle& t : mesh.triangles) {
         std::array<OpenMesh::VertexHandle, 3> v;
         for (int i = 0; i < 3; ++i) v[i] = OpenMesh::VertexHandle(static_cast<int>(t.vertices[i]));
-        if (is_complex(half_edges, v)) {
-            ++report.nonmanifold_edges;
-            for (int i = 0; i < 3; ++i) v[i] = add(t.vertices[i]);
-        }
+        if (!is_complex(half_edges, v) && half_edges.add_face(v[0], v[1], v[2]).is_valid()) continue;
+        ++report.nonmanifold_edges;
+        for (int i = 0; i < 3; ++i) v[i] = add(t.vertices[i]);
         half_edges.add_face(v[0], v[1], v[2]);
     }
     return half_edges;

@@ -10,6 +10,9 @@ namespace transillum {
 
 namespace {
 
+/// Beyond one a triangle: enough for the walls of a room.
+constexpr std::size_t leaves_by_default = 30000;
+
 double longest_edge(const SurfaceMesh& mesh, const RootTriangle& t) {
     double longest = 0.0;
     for (int i = 0; i < 3; ++i)
@@ -95,8 +98,9 @@ PatchHierarchy subdivide_uniformly(const SurfaceMesh& mesh, const SubdivisionOpt
                          std::to_string(max_subdivision_level));
     std::vector<double> edges;
     for (const RootTriangle& t : mesh.triangles) edges.push_back(longest_edge(mesh, t));
-    const double size = options.patch_size > 0.0 ? options.patch_size
-                                                 : size_for_count(edges, options.leaf_target, options.max_level);
+    const double target = options.leaf_target > 0 ? options.leaf_target
+                                                  : static_cast<double>(edges.size() + leaves_by_default);
+    const double size = options.patch_size > 0.0 ? options.patch_size : size_for_count(edges, target, options.max_level);
     std::vector<int> levels;
     for (const double edge : edges) levels.push_back(level_for(edge, size, options.max_level));
     return subdivide_to_levels(levels);

@@ -65,13 +65,17 @@ void insert_outline(Triangulation& t, std::span<const glm::dvec3> outline, const
     }
     // A seam is walked both ways and bounds nothing: only edges met an odd number of times do.
     std::map<std::pair<Vertex, Vertex>, bool> odd;
+    std::vector<std::pair<Vertex, Vertex>> edges;
     for (std::size_t i = 0; i < vertices.size(); ++i) {
         const Vertex a = vertices[i];
         const Vertex b = vertices[(i + 1) % vertices.size()];
-        if (a != b) odd[std::minmax(a, b)] ^= true;
+        if (a == b) continue;
+        edges.push_back(std::minmax(a, b));
+        odd[edges.back()] ^= true;
     }
-    for (const auto& [edge, bounds] : odd)
-        if (bounds) t.insert_constraint(edge.first, edge.second);
+    // In the outline's order: handles compare by address, which would choose between equal diagonals.
+    for (const auto& edge : edges)
+        if (odd[edge]) t.insert_constraint(edge.first, edge.second);
 }
 
 void mark_depths(Triangulation& t) {

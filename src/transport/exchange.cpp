@@ -1,7 +1,9 @@
 #include "transport/exchange.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstddef>
 
 namespace transillum {
 
@@ -9,11 +11,25 @@ namespace {
 
 /// Every fourth row of pixels, from a random one, suffices for the few numbers that clusters exchange.
 constexpr int cluster_row_stride = 4;
+/// Fragments between a fetch and its use: long enough for main memory, short enough to stay in the cache.
+constexpr std::ptrdiff_t fetch_distance = 24;
 /// Cluster sums collect far more fragments than a patch does: they drop this many low bits.
 constexpr int cluster_shift = 8;
 
 FixedRadiance shifted(const FixedRadiance& r) {
-    return {FixedRadiance::Lanes{r.lane[0] >> cluster_shift, r.lane[1] >> cluster_shift, r.lane[2] >> cluster_shift, r.lane[3]}};
+    using Unsigned = std::uint64_t __attribute__((vector_size(32)));
+    // Radiance is not negative, and the count is one.
+    const Unsigned bits = (reinterpret_cast<const Unsigned&>(r.lane) >> cluster_shift) | Unsigned{0, 0, 0, 1};
+    return {reinterpret_cast<const FixedRadiance::Lanes&>(bits)};
+}
+
+/// Both sides of a leaf share a cache line: the front at odd numbers, the back at even ones.
+std::uint32_t upper_slot(Fragment f) {
+    return std::rotl(static_cast<std::uint32_t>(f), 1);  // leaf * 2 + whether the front faces forwards
+}
+
+std::uint32_t lower_slot(Fragment f) {
+    return upper_slot(f) ^ 1u;
 }
 
 Received in_units(const FixedRadiance& sum, double unit) {
@@ -23,12 +39,25 @@ Received in_units(const FixedRadiance& sum, double unit) {
 }  // namespace
 
 Exchange::Exchange(std::uint32_t leaf_count, const Clusters& clusters, const Workers& workers)
-    : leaf_count_(leaf_count), clusters_(clusters), workers_(workers), radiance_(2 * std::size_t{leaf_count} + 1), partials_(workers.count()) {
+    : leaf_count_(leaf_count),
+      cluster_count_(clusters.count),
+      workers_(workers),
+      radiance_(2 * std::size_t{leaf_count} + 1),
+      partials_(workers.count()) {
+    if (cluster_count_ > 0) {
+        cluster_.resize(radiance_.size());
+        for (std::uint32_t p = 0; p < clusters.of_patch.size(); ++p) cluster_[slot_of(p)] = clusters.of_patch[p];
+    }
     for (Partial& p : partials_) {
         p.received.resize(radiance_.size());
-        p.transfer.resize(std::size_t{clusters.count + 1} * (clusters.count + 1));
+        p.transfer.resize(std::size_t{cluster_count_ + 1} * (cluster_count_ + 1));
     }
     radiance_.back().lane = FixedRadiance::Lanes{0, 0, 0, 1};  // the environment is dark, and is seen
+}
+
+std::uint32_t Exchange::slot_of(std::uint32_t patch) const {
+    if (patch == 2 * leaf_count_) return patch;
+    return patch < leaf_count_ ? 2 * patch + 1 : 2 * (patch - leaf_count_);
 }
 
 void Exchange::set_radiance(const std::vector<Spectrum>& radiance, double most_fragments) {
@@ -43,7 +72,7 @@ void Exchange::set_radiance(const std::vector<Spectrum>& radiance, double most_f
     workers_.for_ranges(radiance.size(), 16384, [&](std::size_t begin, std::size_t end, int) {
         for (std::size_t i = begin; i < end; ++i) {
             const auto fixed = [&](float x) { return std::llrint(x * scale); };
-            radiance_[i].lane = FixedRadiance::Lanes{fixed(radiance[i].x), fixed(radiance[i].y), fixed(radiance[i].z), 1};
+            radiance_[slot_of(static_cast<std::uint32_t>(i))].lane = FixedRadiance::Lanes{fixed(radiance[i].x), fixed(radiance[i].y), fixed(radiance[i].z), 1};
         }
     });
 }
@@ -52,9 +81,17 @@ void Exchange::exchange_tile(const TileLists& tile, int cluster_row, Partial& pa
     const std::uint32_t outside = 2 * leaf_count_;
     FixedRadiance* const received = partial.received.data();
     const FixedRadiance* const radiance = radiance_.data();
-    const std::uint8_t* const cluster = clusters_.of_patch.data();
-    const std::uint32_t n = clusters_.count + 1;
+    const std::uint8_t* const cluster = cluster_.data();
+    FixedRadiance* const transfer = partial.transfer.data();
+    const std::uint32_t n = cluster_count_ + 1;
     FixedRadiance escaped;
+    // Lists lie one behind the other: the leaves of those to come are fetched ahead.
+    const Fragment* const last = tile.fragments.data() + tile.fragments.size() - 1;
+    const auto fetch_ahead = [&](const Fragment* f) {
+        const std::uint32_t slot = upper_slot(*std::min(f + fetch_distance, last)) & ~1u;
+        __builtin_prefetch(&radiance[slot]);
+        __builtin_prefetch(&received[slot], 1);
+    };
     for (int row = 0; row < tile.height; ++row) {
         const bool sampled = cluster_row >= 0 && (tile.row0 + row) % cluster_row_stride == cluster_row;
         for (int i = row * tile.width; i < (row + 1) * tile.width; ++i) {
@@ -62,21 +99,23 @@ void Exchange::exchange_tile(const TileLists& tile, int cluster_row, Partial& pa
             const Fragment* const end = tile.fragments.data() + tile.first[i + 1];
             if (f == end) continue;
             const auto tell_clusters = [&](std::uint32_t a, std::uint32_t b) {
-                partial.transfer[cluster[a] * n + cluster[b]] += shifted(radiance[b]);
-                partial.transfer[cluster[b] * n + cluster[a]] += shifted(radiance[a]);
+                transfer[cluster[a] * n + cluster[b]] += shifted(radiance[b]);
+                transfer[cluster[b] * n + cluster[a]] += shifted(radiance[a]);
             };
             // The first and the last of a list face the environment.
-            const std::uint32_t first = lower_patch(*f, leaf_count_);
+            fetch_ahead(f);
+            const std::uint32_t first = lower_slot(*f);
             received[first] += radiance[outside];
             escaped += radiance[first];
             if (sampled) tell_clusters(outside, first);
-            std::uint32_t behind = upper_patch(*f, leaf_count_);
+            std::uint32_t behind = upper_slot(*f);
             for (++f; f != end; ++f) {
-                const std::uint32_t ahead = lower_patch(*f, leaf_count_);
+                fetch_ahead(f);
+                const std::uint32_t ahead = lower_slot(*f);
                 received[ahead] += radiance[behind];
                 received[behind] += radiance[ahead];
                 if (sampled) tell_clusters(ahead, behind);
-                behind = upper_patch(*f, leaf_count_);
+                behind = upper_slot(*f);
             }
             received[behind] += radiance[outside];
             escaped += radiance[behind];
@@ -88,7 +127,7 @@ void Exchange::exchange_tile(const TileLists& tile, int cluster_row, Partial& pa
 }
 
 void Exchange::transfer(TransilluminationBuffer& buffer, const Bundle& bundle) {
-    const int cluster_row = clusters_.count > 0 ? bundle.random_row % cluster_row_stride : -1;
+    const int cluster_row = cluster_count_ > 0 ? bundle.random_row % cluster_row_stride : -1;
     buffer.trace(bundle, workers_, [&](const TileLists& tile, int worker) {
         exchange_tile(tile, cluster_row, partials_[worker]);
     });
@@ -97,10 +136,11 @@ void Exchange::transfer(TransilluminationBuffer& buffer, const Bundle& bundle) {
 void Exchange::collect(const std::function<void(std::uint32_t, const Received&)>& take) {
     workers_.for_ranges(radiance_.size(), 16384, [&](std::size_t begin, std::size_t end, int) {
         for (std::size_t patch = begin; patch < end; ++patch) {
+            const std::uint32_t slot = slot_of(static_cast<std::uint32_t>(patch));
             FixedRadiance sum;
             for (Partial& p : partials_) {
-                sum += p.received[patch];
-                p.received[patch] = {};
+                sum += p.received[slot];
+                p.received[slot] = {};
             }
             take(static_cast<std::uint32_t>(patch), in_units(sum, unit_));
         }
@@ -112,9 +152,9 @@ void Exchange::collect(const std::function<void(std::uint32_t, const Received&)>
 }
 
 void Exchange::collect(ClusterTransfer& sum) {
-    const std::uint32_t n = clusters_.count + 1;
+    const std::uint32_t n = cluster_count_ + 1;
     for (std::uint32_t receiver = 0; receiver < n; ++receiver)
-        for (std::uint32_t sender = 0; sender < clusters_.count; ++sender) {
+        for (std::uint32_t sender = 0; sender < cluster_count_; ++sender) {
             FixedRadiance total;
             for (Partial& p : partials_) {
                 FixedRadiance& entry = p.transfer[receiver * n + sender];

@@ -67,11 +67,13 @@ private:
     };
     void exchange_tile(const TileLists& tile, int cluster_row, Partial& partial) const;
 
-    std::uint32_t leaf_count_;
-    const Clusters& clusters_;
+    [[nodiscard]] std::uint32_t slot_of(std::uint32_t patch) const;
+
+    std::uint32_t leaf_count_, cluster_count_;
     const Workers& workers_;
     double unit_ = 1.0;                    ///< radiance of one fixed-point step
-    std::vector<FixedRadiance> radiance_;  ///< one a patch, then the environment
+    std::vector<FixedRadiance> radiance_;  ///< one a slot, then the environment
+    std::vector<std::uint8_t> cluster_;    ///< one a slot, then the environment
     std::vector<Partial> partials_;        ///< one a worker
     std::uint64_t fragments_ = 0;
 };

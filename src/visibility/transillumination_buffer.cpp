@@ -164,6 +164,15 @@ TransilluminationBuffer::Plane TransilluminationBuffer::depth_plane(std::uint32_
     return {a.x / fixed_unit, a.y / fixed_unit, a.depth, (zb * cy - zc * by) * scale, (zc * bx - zb * cx) * scale};
 }
 
+/// Barycentric coordinates of the second and third vertex, about the first.
+std::array<TransilluminationBuffer::Plane, 2> TransilluminationBuffer::barycentric_planes(const std::array<FixedPoint, 3>& v,
+                                                                                          std::int64_t twice_area) {
+    const double scale = fixed_unit / static_cast<double>(twice_area);
+    const double x = v[0].x / fixed_unit, y = v[0].y / fixed_unit;
+    return {Plane{x, y, 0.0, (v[2].y - v[0].y) * scale, (v[0].x - v[2].x) * scale},
+            Plane{x, y, 0.0, (v[0].y - v[1].y) * scale, (v[1].x - v[0].x) * scale}};
+}
+
 /// Sorts a list by depth. Where the 31 bits of two neighbours all but agree, their planes decide; where these agree
 /// too, the surfaces coincide and the keys stand.
 void TransilluminationBuffer::sort_list(Fragment* begin, Fragment* end, int x, int y) const {
@@ -192,15 +201,11 @@ void TransilluminationBuffer::draw(std::uint32_t root, const TileRect& rect, Scr
 
     const Plane depth = depth_plane(root);
 
-    // Barycentric coordinates of the second and third vertex, about the first.
-    const double per_area = fixed_unit / static_cast<double>(area);
-    const double first_x = fixed[0].x / fixed_unit, first_y = fixed[0].y / fixed_unit;
-    const Plane b1{first_x, first_y, 0.0, (fixed[2].y - fixed[0].y) * per_area, (fixed[0].x - fixed[2].x) * per_area};
-    const Plane b2{first_x, first_y, 0.0, (fixed[0].y - fixed[1].y) * per_area, (fixed[1].x - fixed[0].x) * per_area};
-
     // The window's axes and the direction are right-handed: a positive area is seen from ahead.
-    const std::uint32_t facing = area > 0 ? 0x80000000u : 0u;
+    const std::uint64_t facing = area > 0 ? 0x80000000u : 0u;
     const RootPatches& patches = patches_.roots[root];
+    std::array<Plane, 2> b{};
+    if (patches.level > 0) b = barycentric_planes(fixed, area);
     if (area < 0) std::swap(fixed[1], fixed[2]);
     // A slope that does not fit belongs to a span of one pixel, where it is not used.
     const auto dz = static_cast<std::uint64_t>(static_cast<std::int64_t>(std::clamp(depth.dx, -0x1p62, 0x1p62)));
@@ -210,23 +215,23 @@ void TransilluminationBuffer::draw(std::uint32_t root, const TileRect& rect, Scr
         const int length = x1 - x0;
         const int row = (y - rect.y0) * (rect.x1 - rect.x0) + (x0 - rect.x0);
         Fragment* const out = scratch.drawn.data() + scratch.count;
-        std::uint16_t* const pixel = scratch.pixel.data() + scratch.count;
-        const auto z0 = static_cast<std::uint64_t>(static_cast<std::int64_t>(depth.at(x0, y)));
-        const auto key = [&](int i, std::uint32_t leaf) { return ((z0 + i * dz) & depth_bits) | facing | leaf; };
+        auto z = static_cast<std::uint64_t>(static_cast<std::int64_t>(depth.at(x0, y)));
         if (patches.level == 0) {
-            for (int i = 0; i < length; ++i) out[i] = key(i, patches.first_leaf);
+            const std::uint64_t low = facing | patches.first_leaf;
+            for (int i = 0; i < length; ++i, z += dz) out[i] = (z & depth_bits) | low;
         } else {
-            const auto s0 = static_cast<float>(b1.at(x0, y)), t0 = static_cast<float>(b2.at(x0, y));
-            const auto ds = static_cast<float>(b1.dx), dt = static_cast<float>(b2.dx);
-            for (int i = 0; i < length; ++i) {
+            const auto s0 = static_cast<float>(b[0].at(x0, y)), t0 = static_cast<float>(b[1].at(x0, y));
+            const auto ds = static_cast<float>(b[0].dx), dt = static_cast<float>(b[1].dx);
+            for (int i = 0; i < length; ++i, z += dz) {
                 const auto step = static_cast<float>(i);
-                out[i] = key(i, patches.first_leaf + leaf_in_root(patches.level, s0 + ds * step, t0 + dt * step));
+                const std::uint32_t leaf = patches.first_leaf + leaf_in_root(patches.level, s0 + ds * step, t0 + dt * step);
+                out[i] = (z & depth_bits) | facing | leaf;
             }
         }
-        for (int i = 0; i < length; ++i) {
-            pixel[i] = static_cast<std::uint16_t>(row + i);
-            ++scratch.first[row + i + 1];
-        }
+        std::uint16_t* const pixel = scratch.pixel.data() + scratch.count;
+        for (int i = 0; i < length; ++i) pixel[i] = static_cast<std::uint16_t>(row + i);
+        std::uint32_t* const lengths = scratch.first.data() + row + 1;
+        for (int i = 0; i < length; ++i) ++lengths[i];
         scratch.count += length;
     });
 }
@@ -246,13 +251,17 @@ void TransilluminationBuffer::fill_tile(int tile, Scratch& scratch) const {
     auto& first = scratch.first;
     std::partial_sum(first.begin(), first.begin() + pixels + 1, first.begin());
     if (scratch.sorted.size() < scratch.count) scratch.sorted.resize(scratch.drawn.size());
-    for (std::size_t i = 0; i < scratch.count; ++i) scratch.sorted[first[scratch.pixel[i]]++] = scratch.drawn[i];
+    Fragment* const sorted = scratch.sorted.data();
+    const Fragment* const drawn = scratch.drawn.data();
+    const std::uint16_t* const pixel = scratch.pixel.data();
+    std::uint32_t* const place = first.data();
+    for (std::size_t i = 0, count = scratch.count; i < count; ++i) sorted[place[pixel[i]]++] = drawn[i];
     std::copy_backward(first.begin(), first.begin() + pixels, first.begin() + pixels + 1);
     first[0] = 0;
     const int width = scratch.rect.x1 - x0;
     for (int i = 0; i < pixels; ++i)
         if (first[i + 1] - first[i] > 1)
-            sort_list(&scratch.sorted[first[i]], scratch.sorted.data() + first[i + 1], x0 + i % width, y0 + i / width);
+            sort_list(sorted + first[i], sorted + first[i + 1], x0 + i % width, y0 + i / width);
 }
 
 void TransilluminationBuffer::trace(const Bundle& bundle, const Workers& workers, const Visitor& visit) {

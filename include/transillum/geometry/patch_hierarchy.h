@@ -68,7 +68,7 @@ struct PatchHierarchy {
 
 struct SubdivisionOptions {
     double patch_size = 0.0;        ///< longest edge a leaf may have [scene units]; 0: from leaf_target
-    std::uint32_t leaf_target = 20000;  ///< the size is chosen so that there are about this many leaves
+    std::uint32_t leaf_target = 0;  ///< the size is chosen so that there are about this many leaves; 0: 30000 more than triangles
     int max_level = 8;              ///< at most max_subdivision_level
 };
 

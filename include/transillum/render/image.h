@@ -14,7 +14,8 @@ namespace transillum {
 struct Image {
     int width = 0, height = 0;
     std::vector<Spectrum> pixels;
-    /// Optional, one a pixel: 1 where the pixel sees an emitter. Stored as the EXR channel "emitter.mask".
+    /// Optional, one a pixel: share of its samples that see an emitter; above 0 it counts as seeing one.
+    /// Stored as the EXR channel "emitter.mask".
     std::vector<float> emitter_mask;
 
     [[nodiscard]] Spectrum& at(int x, int y) { return pixels[static_cast<std::size_t>(y) * width + x]; }
@@ -29,7 +30,8 @@ struct ToneMapping {
 };
 
 /// Writes EXR (32-bit float, linear, no loss) or PNG (tone-mapped) by the extension; atomically.
-/// \throws UsageError for another extension, IoError where it cannot write.
+/// \throws UsageError for another extension, InputError where a pixel is not finite, IoError where it
+/// cannot write; nothing is left behind then.
 void write_image(const Image& image, const std::filesystem::path& path, const ToneMapping& tone = {});
 
 /// Reads what OpenImageIO reads; PNG and other 8-bit images are taken as sRGB and made linear.
@@ -44,7 +46,7 @@ struct ImageDifference {
     std::uint64_t left_out = 0;  ///< pixels that see an emitter, and their neighbours, in either image
 };
 
-/// a against the reference b. \throws InputError when sizes differ or a value is not finite.
+/// a against the reference b. \throws InputError when sizes differ, a value is not finite, or no pixel is left.
 [[nodiscard]] ImageDifference compare_images(const Image& a, const Image& b);
 
 }  // namespace transillum

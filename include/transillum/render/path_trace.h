@@ -12,10 +12,12 @@ namespace transillum {
 struct PathTraceOptions {
     int width = 500, height = 500;
     int samples = 256;          ///< paths a pixel
-    int max_bounces = 0;        ///< 0: no limit, roulette alone ends paths
+    int max_bounces = 0;        ///< reflections; 0: no limit, roulette alone ends paths
     std::uint64_t seed = 1;
 };
 
+/// Asked to stop, it returns the mean of the paths it has. The image does not depend on the number of threads.
+/// \throws UsageError on a size, count or camera it cannot use.
 [[nodiscard]] Image path_trace(const SurfaceMesh& surface, const Camera& camera,
                                const PathTraceOptions& options, const Workers& workers, Monitor& monitor);
 

@@ -11,6 +11,7 @@
 
 #include <glm/mat3x3.hpp>
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -83,6 +84,7 @@ private:
     void fill_tile(int tile, Scratch& scratch) const;
     void draw(std::uint32_t root, const struct TileRect& rect, Scratch& scratch) const;
     Plane depth_plane(std::uint32_t root) const;
+    static std::array<Plane, 2> barycentric_planes(const std::array<struct FixedPoint, 3>& v, std::int64_t twice_area);
     void sort_list(Fragment* begin, Fragment* end, int x, int y) const;
 
     const SurfaceMesh& mesh_;
