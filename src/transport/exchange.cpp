@@ -77,6 +77,10 @@ void Exchange::set_radiance(const std::vector<Spectrum>& radiance, double most_f
     });
 }
 
+// Integers: both versions give the same bits.
+#if defined(__x86_64__) && defined(__GNUC__)
+__attribute__((target_clones("avx2", "default")))
+#endif
 void Exchange::exchange_tile(const TileLists& tile, int cluster_row, Partial& partial) const {
     const std::uint32_t outside = 2 * leaf_count_;
     FixedRadiance* const received = partial.received.data();

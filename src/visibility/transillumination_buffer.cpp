@@ -19,6 +19,8 @@ constexpr std::uint32_t triangles_a_bin_set = 1u << 14;
 constexpr double fixed_unit = 1 << sub_pixel_bits;
 /// Depths are 63-bit integers, of which a fragment keeps the upper 31. The margin takes up rounding.
 constexpr double depth_margin = 0x1p40;
+/// Planes of triangles that meet at an edge differ by this much there.
+constexpr double depth_rounding = 0x1p24;
 constexpr std::uint64_t depth_bits = 0xffffffff00000000u;
 
 struct Bounds {
@@ -81,7 +83,7 @@ TransilluminationBuffer::TransilluminationBuffer(const SurfaceMesh& mesh, const 
     : mesh_(mesh), patches_(patches), pixel_size_(pixel_size), projected_(mesh.positions.size()) {
     const Bounds b = bounds_of(mesh.positions, glm::dmat3(1.0));
     const double widest = glm::length(b.high - b.low) / pixel_size;
-    if (!(widest < max_window - 2))
+    if (!(pixel_size > 0.0 && widest < max_window - 2))
         throw UsageError("pixel size " + std::to_string(pixel_size) + ": the window would be " +
                          std::to_string(widest) + " pixels wide; accepted: at most " + std::to_string(max_window));
     bins_.resize((mesh.triangles.size() + triangles_a_bin_set - 1) / triangles_a_bin_set);
@@ -174,7 +176,7 @@ std::array<TransilluminationBuffer::Plane, 2> TransilluminationBuffer::barycentr
 }
 
 /// Sorts a list by depth. Where the 31 bits of two neighbours all but agree, their planes decide; where these agree
-/// too, the surfaces coincide and the keys stand.
+/// too, the surfaces coincide, or meet there in an outline, and the lower halves of the keys decide.
 void TransilluminationBuffer::sort_list(Fragment* begin, Fragment* end, int x, int y) const {
     constexpr Fragment near = std::uint64_t{2} << 32;
     for (Fragment* i = begin + 1; i < end; ++i) {
@@ -187,7 +189,9 @@ void TransilluminationBuffer::sort_list(Fragment* begin, Fragment* end, int x, i
         if (i[0] - i[-1] >= near) continue;
         const double before = depth_plane(patches_.root_of_leaf[leaf_of(i[-1])]).at(x, y);
         const double after = depth_plane(patches_.root_of_leaf[leaf_of(i[0])]).at(x, y);
-        if (before > after) std::swap(i[-1], i[0]);
+        const bool decided = std::abs(after - before) > depth_rounding;
+        if (decided ? before > after : static_cast<std::uint32_t>(i[-1]) > static_cast<std::uint32_t>(i[0]))
+            std::swap(i[-1], i[0]);
     }
 }
 
@@ -210,28 +214,33 @@ void TransilluminationBuffer::draw(std::uint32_t root, const TileRect& rect, Scr
     // A slope that does not fit belongs to a span of one pixel, where it is not used.
     const auto dz = static_cast<std::uint64_t>(static_cast<std::int64_t>(std::clamp(depth.dx, -0x1p62, 0x1p62)));
 
+    const std::uint64_t low = facing | patches.first_leaf;
+    const auto ds = static_cast<float>(b[0].dx), dt = static_cast<float>(b[1].dx);
+
     scan_convert(fixed, rect, [&](std::int32_t y, std::int32_t x0, std::int32_t x1) {
         scratch.reserve_row();
-        const int length = x1 - x0;
         const int row = (y - rect.y0) * (rect.x1 - rect.x0) + (x0 - rect.x0);
         Fragment* const out = scratch.drawn.data() + scratch.count;
+        std::uint16_t* const pixel = scratch.pixel.data() + scratch.count;
+        std::uint32_t* const lengths = scratch.first.data() + row + 1;
         auto z = static_cast<std::uint64_t>(static_cast<std::int64_t>(depth.at(x0, y)));
+        // Spans are short: one plain loop beats several that are vectorized.
+        const auto emit = [&](int i, std::uint32_t leaf) {
+            out[i] = (z & depth_bits) | (low + leaf);
+            pixel[i] = static_cast<std::uint16_t>(row + i);
+            ++lengths[i];
+            z += dz;
+        };
+        const int length = x1 - x0;
         if (patches.level == 0) {
-            const std::uint64_t low = facing | patches.first_leaf;
-            for (int i = 0; i < length; ++i, z += dz) out[i] = (z & depth_bits) | low;
+            for (int i = 0; i < length; ++i) emit(i, 0);
         } else {
             const auto s0 = static_cast<float>(b[0].at(x0, y)), t0 = static_cast<float>(b[1].at(x0, y));
-            const auto ds = static_cast<float>(b[0].dx), dt = static_cast<float>(b[1].dx);
-            for (int i = 0; i < length; ++i, z += dz) {
+            for (int i = 0; i < length; ++i) {
                 const auto step = static_cast<float>(i);
-                const std::uint32_t leaf = patches.first_leaf + leaf_in_root(patches.level, s0 + ds * step, t0 + dt * step);
-                out[i] = (z & depth_bits) | facing | leaf;
+                emit(i, leaf_in_root(patches.level, s0 + ds * step, t0 + dt * step));
             }
         }
-        std::uint16_t* const pixel = scratch.pixel.data() + scratch.count;
-        for (int i = 0; i < length; ++i) pixel[i] = static_cast<std::uint16_t>(row + i);
-        std::uint32_t* const lengths = scratch.first.data() + row + 1;
-        for (int i = 0; i < length; ++i) ++lengths[i];
         scratch.count += length;
     });
 }
