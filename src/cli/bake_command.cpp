@@ -14,6 +14,9 @@ namespace transillum::cli {
 
 namespace {
 
+/// Share of the flux on black backs from which a mesh is suspect; the backs of lamps take some.
+constexpr double most_lost = 0.01;
+
 struct BakeArguments {
     SceneOptions scene;
     std::string output;
@@ -30,19 +33,19 @@ void add_options(CLI::App& command, BakeArguments& a) {
     command.add_option("--iterations", iteration.iterations, "directions, each transferred both ways; best a power of two")
         ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 31))->capture_default_str()->group(stopping);
     command.add_option("--target-error", iteration.target_error, "estimated relative error, as 0.01; 0: none")
-        ->check(CLI::Range(0.0, 1.0))->capture_default_str()->group(stopping);
+        ->check(within(0.0, 1.0))->capture_default_str()->group(stopping);
     command.add_option("--time", iteration.seconds, "seconds of transport; 0: no limit")
-        ->check(CLI::NonNegativeNumber)->capture_default_str()->group(stopping);
+        ->check(not_negative())->capture_default_str()->group(stopping);
 
     const char* const patches = "Patches";
     command.add_option("--leaves", a.bake.subdivision.leaf_target, "about so many leaf patches; 0: 30000 more than triangles")
         ->check(CLI::Range(0u, 1u << 28))->capture_default_str()->group(patches);
     command.add_option("--patch-size", a.bake.subdivision.patch_size, "longest edge of a leaf [scene units], instead of --leaves")
-        ->check(CLI::NonNegativeNumber)->capture_default_str()->group(patches);
+        ->check(not_negative())->capture_default_str()->group(patches);
     command.add_option("--max-level", a.bake.subdivision.max_level, "most subdivisions of a triangle")
         ->check(CLI::Range(0, max_subdivision_level))->capture_default_str()->group(patches);
     command.add_option("--crease-angle", a.bake.surface.crease_angle, "sharper edges are not shaded across [degrees]")
-        ->check(CLI::Range(0.0, 180.0))->capture_default_str()->group(patches);
+        ->check(within(0.0, 180.0))->capture_default_str()->group(patches);
 
     const char* const method = "Method";
     add_choice(command, "--first-shot", a.bake.light.first_shot,
@@ -81,7 +84,7 @@ int run(const BakeArguments& a, const Common& common) {
     const char* const sides[] = {"file", "one", "two"};
     solution.settings.emplace_back("sides", sides[static_cast<int>(a.scene.load.sides)]);
     const SpectrumSum lost = solution.balance.black_backs;
-    if (luminance(lost) > 0.001 * luminance(solution.balance.emitted))
+    if (luminance(lost) > most_lost * luminance(solution.balance.emitted))
         console.warn(fmt::format("{:.1f} % of the light met black backs: is the mesh wound inside out? (--sides two)",
                                  100.0 * luminance(lost) / luminance(solution.balance.emitted)));
     save_solution(solution, record, a.output);

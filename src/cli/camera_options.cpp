@@ -21,7 +21,7 @@ glm::dvec3 point(const std::vector<double>& v) {
 
 void add_camera_options(CLI::App& command, CameraOptions& options) {
     const auto vector = [&](const char* name, std::vector<double>& value, const char* help) {
-        return command.add_option(name, value, help)->expected(3)->delimiter(',')->type_name("X,Y,Z")->group("Camera");
+        return command.add_option(name, value, help)->expected(3)->delimiter(',')->check(within(-1e30, 1e30).description(""))->type_name("X,Y,Z")->group("Camera");
     };
     command.add_option("--camera", options.name, "a camera of the scene, by name (default: the first)")->group("Camera");
     vector("--eye", options.eye, "where the eye is; with --look-at instead of --camera");
@@ -34,7 +34,7 @@ void add_camera_options(CLI::App& command, CameraOptions& options) {
 void add_image_options(CLI::App& command, ImageOptions& options) {
     command.add_option("-o,--output", options.paths, "picture: .exr linear, .png tone-mapped; may be given more than once")
         ->required()->group("Output");
-    command.add_option("--exposure", options.tone.exposure, "brighten the PNG by so many stops")->capture_default_str()->group("Output");
+    command.add_option("--exposure", options.tone.exposure, "brighten the PNG by so many stops")->check(within(-100.0, 100.0))->capture_default_str()->group("Output");
     command.add_flag("!--no-auto-exposure", options.tone.automatic, "a radiance of 1 is white (default: middle grey is the median)")
         ->group("Output");
 }

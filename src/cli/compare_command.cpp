@@ -1,4 +1,5 @@
 #include "cli/command.h"
+#include "cli/scene_options.h"
 
 #include <transillum/base/error.h>
 #include <transillum/render/image.h>
@@ -60,7 +61,7 @@ void add_compare(CLI::App& program, const Common&, int& exit_code) {
     command->add_option("A", a->a, "image or solution")->required();
     command->add_option("B", a->b, "the reference")->required();
     command->add_option("--fail-above", a->fail_above, "exit with 1 when bias or relative RMSE is larger, as 0.03")
-        ->check(CLI::NonNegativeNumber);
+        ->check(not_negative());
     command->add_flag("--json", a->json, "machine-readable");
     command->callback([a, &exit_code] { exit_code = run(*a); });
 }

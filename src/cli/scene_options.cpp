@@ -3,10 +3,13 @@
 #include <transillum/base/error.h>
 #include <transillum/scene/limit_albedo.h>
 
+#include <fmt/format.h>
+
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <limits>
 #include <unistd.h>
 
 namespace transillum::cli {
@@ -19,13 +22,27 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
     command.add_flag("--drop-transparent", options.load.drop_transparent,
                      "leave out transparent surfaces (else they are opaque)")->group("Scene");
     command.add_option("--max-albedo", options.max_albedo, "albedos above it are reduced, per channel")
-        ->capture_default_str()->group("Scene");
+        ->check(within(0.0, 1.0))->capture_default_str()->group("Scene");
 }
 
 Scene read_scene(const SceneOptions& options, Monitor& monitor) {
     Scene scene = load_scene(options.path, options.load, monitor);
     limit_albedo(scene, options.max_albedo, monitor);
     return scene;
+}
+
+CLI::Validator within(double least, double most) {
+    const std::string accepted = fmt::format("in [{:g}, {:g}]", least, most);
+    const auto check = [=](const std::string& word) {
+        double value = 0.0;
+        const bool good = CLI::detail::lexical_cast(word, value) && value >= least && value <= most;
+        return good ? std::string() : word + " is not " + accepted;
+    };
+    return CLI::Validator(check, accepted);
+}
+
+CLI::Validator not_negative() {
+    return within(0.0, std::numeric_limits<double>::max()).description("not negative");
 }
 
 void require_writable(const std::string& path) {

@@ -27,6 +27,11 @@ void add_scene_options(CLI::App& command, SceneOptions& options);
 /// \throws IoError when the folder of `path` does not exist or cannot be written to.
 void require_writable(const std::string& path);
 
+/// A number in [least, most]. CLI11's own checks let NaN pass.
+[[nodiscard]] CLI::Validator within(double least, double most);
+/// A finite number, not negative.
+[[nodiscard]] CLI::Validator not_negative();
+
 /// An option that takes one of several words.
 template <class Enum>
 CLI::Option* add_choice(CLI::App& command, const std::string& name, Enum& value,

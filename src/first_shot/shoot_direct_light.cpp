@@ -35,7 +35,7 @@ DirectLight shoot_direct_light(const SurfaceMesh& mesh, const PatchHierarchy& pa
     workers.for_ranges(n, 1, [&](std::size_t begin, std::size_t end, int worker) {
         auto& hemicube = hemicubes[worker];
         if (!hemicube) hemicube = std::make_unique<Hemicube>(mesh, patches, hemicube_resolution);
-        for (std::size_t i = begin; i < end; ++i) {
+        for (std::size_t i = begin; i < end && !monitor.stop_requested(); ++i) {
             const LightSample& sample = light.samples[i];
             const auto& views = hemicube->look(sample.position, turned_frame(sample, i));
             for (std::uint32_t p = 0; p < patches.patch_count(); ++p) {

@@ -4,6 +4,7 @@
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -57,7 +58,7 @@ public:
 };
 
 /// Face i of the half-edge mesh is triangle i; a triangle that would make it non-manifold gets vertices of its own.
-HalfEdgeMesh make_half_edges(const SurfaceMesh& mesh, SurfaceReport& report) {
+HalfEdgeMesh make_half_edges(const SurfaceMesh& mesh) {
     const QuietOpenMesh quiet;
     HalfEdgeMesh half_edges;
     const auto add = [&](std::uint32_t vertex) {
@@ -69,11 +70,23 @@ HalfEdgeMesh make_half_edges(const SurfaceMesh& mesh, SurfaceReport& report) {
         std::array<OpenMesh::VertexHandle, 3> v;
         for (int i = 0; i < 3; ++i) v[i] = OpenMesh::VertexHandle(static_cast<int>(t.vertices[i]));
         if (!is_complex(half_edges, v) && half_edges.add_face(v[0], v[1], v[2]).is_valid()) continue;
-        ++report.nonmanifold_edges;
         for (int i = 0; i < 3; ++i) v[i] = add(t.vertices[i]);
         half_edges.add_face(v[0], v[1], v[2]);
     }
     return half_edges;
+}
+
+using Edge = std::pair<std::uint32_t, std::uint32_t>;
+
+/// Edges of three or more triangles, sorted. Light may differ on all sides of them: a floor that runs on under a wall.
+std::vector<Edge> edges_of_many(const SurfaceMesh& mesh) {
+    std::vector<Edge> all, many;
+    for (const RootTriangle& t : mesh.triangles)
+        for (int i = 0; i < 3; ++i) all.push_back(std::minmax(t.vertices[i], t.vertices[(i + 1) % 3]));
+    std::sort(all.begin(), all.end());
+    for (std::size_t i = 2; i < all.size(); ++i)
+        if (all[i] == all[i - 2] && (many.empty() || many.back() != all[i])) many.push_back(all[i]);
+    return many;
 }
 
 std::uint32_t corner_at(const SurfaceMesh& mesh, std::uint32_t triangle, const glm::dvec3& p) {
@@ -86,8 +99,10 @@ std::uint32_t corner_at(const SurfaceMesh& mesh, std::uint32_t triangle, const g
 }  // namespace
 
 void find_fans(SurfaceMesh& mesh, double crease_angle, SurfaceReport& report) {
-    const HalfEdgeMesh half_edges = make_half_edges(mesh, report);
+    const HalfEdgeMesh half_edges = make_half_edges(mesh);
     const double least_cosine = std::cos(crease_angle * std::numbers::pi / 180.0);
+    const std::vector<Edge> shared_by_many = edges_of_many(mesh);
+    report.nonmanifold_edges = shared_by_many.size();
     CornerSets sets(3 * mesh.triangles.size());
     for (const auto edge : half_edges.edges()) {
         const auto h = half_edges.halfedge_handle(edge, 0);
@@ -105,11 +120,16 @@ void find_fans(SurfaceMesh& mesh, double crease_angle, SurfaceReport& report) {
             ++report.crease_edges;
             continue;
         }
-        for (const auto v : {half_edges.from_vertex_handle(h), half_edges.to_vertex_handle(h)}) {
+        std::array<std::uint32_t, 2> at_f{}, at_g{};
+        for (int end = 0; end < 2; ++end) {
+            const auto v = end == 0 ? half_edges.from_vertex_handle(h) : half_edges.to_vertex_handle(h);
             const auto& p = half_edges.point(v);
-            const glm::dvec3 point(p[0], p[1], p[2]);
-            sets.join(corner_at(mesh, f, point), corner_at(mesh, g, point));
+            at_f[end] = corner_at(mesh, f, {p[0], p[1], p[2]});
+            at_g[end] = corner_at(mesh, g, {p[0], p[1], p[2]});
         }
+        const Edge ends = std::minmax(a.vertices[at_f[0] % 3], a.vertices[at_f[1] % 3]);
+        if (std::binary_search(shared_by_many.begin(), shared_by_many.end(), ends)) continue;
+        for (int end = 0; end < 2; ++end) sets.join(at_f[end], at_g[end]);
     }
     std::vector<std::uint32_t> fan_of_set(3 * mesh.triangles.size(), 0xffffffffu);
     mesh.fan_count = 0;

@@ -201,7 +201,7 @@ Solution bake(const Scene& scene, const BakeOptions& options, const Workers& wor
         s.standard_error[p] *= sources.albedo[p] / static_cast<float>(std::numbers::pi);
     s.iterations = transport.iterations;
     s.relative_error = transport.relative_error;
-    s.interrupted = transport.interrupted;
+    s.interrupted = monitor.stop_requested();
     s.balance = measure_balance(s, transport.escaped);
     note_decisions(s, monitor);
     if (run) run->threads = workers.count();

@@ -74,8 +74,8 @@ vtkSmartPointer<vtkPolyData> patch_cells(const Solution& solution,
     vtkNew<vtkCellArray> triangles;
     const bool fits_32_bits = stored.size() < std::numeric_limits<std::int32_t>::max() / 3;
     if (fits_32_bits) triangles->Use32BitStorage();
-    triangles->AllocateExact(static_cast<vtkIdType>(stored.size()),
-                             static_cast<vtkIdType>(3 * stored.size()));
+    const auto count = static_cast<vtkIdType>(stored.size());
+    triangles->AllocateExact(count, 3 * count);
 
     vtkIdType first_point = 0;
     for (const std::uint32_t patch : stored) {

@@ -35,6 +35,7 @@ namespace {
 constexpr std::uint32_t nothing = 0xffffffffu;
 /// Triangles are clipped at this multiple of a face's half width, and scissored within it.
 constexpr double guard_band = 4.0;
+constexpr std::uint32_t enough_pixels = 64;
 /// Heights over a plane, relative to the distance, that rounding alone can make.
 constexpr double rounding = 64.0 * std::numeric_limits<double>::epsilon();
 
@@ -93,16 +94,9 @@ const std::vector<PatchView>& Hemicube::look(const glm::dvec3& position, const g
         pixels_[i].assign(std::size_t{1} * faces_[i].width * faces_[i].height, {std::numeric_limits<float>::infinity(), nothing});
         draw_face(faces_[i]);
     }
-    double seen_total = 0.0, view_total = 0.0;
     for (const Face& face : faces_) add_seen(face);
-    for (std::uint32_t p = 0; p < sums_.size(); ++p) {
-        views_[p] = sums_[p].area > 0.0 ? view_of(sums_[p], p) : view_of_missed(p);
-        seen_total += sums_[p].seen;
-        view_total += leaf_area(mesh_, patches_, patches_.root_of_leaf[patches_.leaf_of_patch(p)]) *
-                      views_[p].mean_kernel * views_[p].visibility;
-    }
-    if (view_total > 0.0)
-        for (PatchView& v : views_) v.mean_kernel = static_cast<float>(v.mean_kernel * (seen_total / view_total));
+    for (std::uint32_t p = 0; p < sums_.size(); ++p)
+        views_[p] = sums_[p].pixels > 0 ? view_of(sums_[p], p) : view_of_missed(p);
     return views_;
 }
 
@@ -148,6 +142,7 @@ void Hemicube::draw_root(const Face& face, std::uint32_t root) {
                                                                    static_cast<float>(glm::dot(hit, to_b2)));
             const double squared = glm::dot(d, d);
             PatchSums& s = sums_[patch];
+            ++s.pixels;
             s.covered += face.weight(d);
             // dA = r^2 d(omega) / cos' with r = t |d|, d(omega) = pixel^2 / |d|^3, cos' = |d.n| / |d|
             s.area += face.pixel * face.pixel * t * t / std::abs(glm::dot(d, normal));
@@ -203,11 +198,14 @@ double Hemicube::front_share(std::uint32_t leaf) const {
     return 0.5 * glm::length(area) / leaf_area(mesh_, patches_, root);
 }
 
-/// Ratio of flux to area over the patch's own pixels: where pixels are few, their errors cancel.
+/// Flux over the patch's area where there are pixels enough, which keeps the flux; else over the area behind its own
+/// pixels: their errors cancel.
 PatchView Hemicube::view_of(const PatchSums& sums, std::uint32_t patch) const {
-    const double share = front_share(patches_.leaf_of_patch(patch));
-    return {static_cast<float>(sums.covered / sums.area * share),
-            sums.covered > 0.0 ? static_cast<float>(std::min(1.0, sums.seen / sums.covered)) : 0.0f};
+    const std::uint32_t leaf = patches_.leaf_of_patch(patch);
+    const double kernel = sums.pixels >= enough_pixels
+                              ? sums.covered / leaf_area(mesh_, patches_, patches_.root_of_leaf[leaf])
+                              : sums.covered / sums.area * front_share(leaf);
+    return {static_cast<float>(kernel), static_cast<float>(std::min(1.0, sums.seen / sums.covered))};
 }
 
 /// A patch between pixel centres: its centre, looked up in the nearest pixel.
@@ -224,10 +222,10 @@ PatchView Hemicube::view_of_missed(std::uint32_t patch) const {
         const Face& face = faces_[i];
         const double forward = glm::dot(d, face.forward);
         if (forward <= 0.0) continue;
-        const auto x = static_cast<int>(std::floor((glm::dot(d, face.right) / forward + 1.0) / face.pixel));
-        const auto y = static_cast<int>(std::floor((glm::dot(d, face.up) / forward - face.bottom) / face.pixel));
-        if (x < 0 || y < 0 || x >= face.width || y >= face.height) continue;
-        const Pixel& pixel = pixels_[i][static_cast<std::size_t>(y) * face.width + x];
+        const double x = std::floor((glm::dot(d, face.right) / forward + 1.0) / face.pixel);
+        const double y = std::floor((glm::dot(d, face.up) / forward - face.bottom) / face.pixel);
+        if (x < 0.0 || y < 0.0 || x >= face.width || y >= face.height) continue;
+        const Pixel& pixel = pixels_[i][static_cast<std::size_t>(y) * face.width + static_cast<std::size_t>(x)];
         const double squared = glm::dot(d, d), distance = std::sqrt(squared);
         // Within a pixel's width of what is seen there.
         const bool seen = distance <= pixel.distance * (1.0 + face.pixel);

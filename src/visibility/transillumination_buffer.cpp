@@ -86,6 +86,8 @@ TransilluminationBuffer::TransilluminationBuffer(const SurfaceMesh& mesh, const 
     if (!(pixel_size > 0.0 && widest < max_window - 2))
         throw UsageError("pixel size " + std::to_string(pixel_size) + ": the window would be " +
                          std::to_string(widest) + " pixels wide; accepted: at most " + std::to_string(max_window));
+    const glm::dvec3 furthest = glm::max(glm::abs(b.low), glm::abs(b.high));
+    plane_tolerance_ = std::max({furthest.x, furthest.y, furthest.z}) * 0x1p-38;
     bins_.resize((mesh.triangles.size() + triangles_a_bin_set - 1) / triangles_a_bin_set);
 }
 
@@ -175,24 +177,43 @@ std::array<TransilluminationBuffer::Plane, 2> TransilluminationBuffer::barycentr
             Plane{x, y, 0.0, (v[0].y - v[1].y) * scale, (v[1].x - v[0].x) * scale}};
 }
 
-/// Sorts a list by depth. Where the 31 bits of two neighbours all but agree, their planes decide; where these agree
-/// too, the surfaces coincide, or meet there in an outline, and the lower halves of the keys decide.
+/// Do two triangles lie in one plane, up to the rounding of their vertices?
+bool TransilluminationBuffer::are_coplanar(std::uint32_t root_a, std::uint32_t root_b) const {
+    const glm::dvec3 normal = normal_of(mesh_, root_a);
+    const glm::dvec3& point = mesh_.positions[mesh_.triangles[root_a].vertices[0]];
+    for (const std::uint32_t v : mesh_.triangles[root_b].vertices)
+        if (std::abs(glm::dot(normal, mesh_.positions[v] - point)) > plane_tolerance_) return false;
+    return true;
+}
+
+/// The order of two fragments whose 31 bits of depth all but agree. Vertices were moved within the window, not in
+/// depth, so the depths of coinciding surfaces differ a little: there their keys decide, elsewhere their planes do.
+bool TransilluminationBuffer::is_behind(Fragment a, Fragment b, int x, int y) const {
+    const std::uint32_t root_a = patches_.root_of_leaf[leaf_of(a)], root_b = patches_.root_of_leaf[leaf_of(b)];
+    const double distance = depth_plane(root_a).at(x, y) - depth_plane(root_b).at(x, y);
+    if (std::abs(distance) <= depth_rounding || are_coplanar(root_a, root_b))
+        return static_cast<std::uint32_t>(a) > static_cast<std::uint32_t>(b);
+    return distance > 0.0;
+}
+
+/// Lists are short: insertion sort.
 void TransilluminationBuffer::sort_list(Fragment* begin, Fragment* end, int x, int y) const {
-    constexpr Fragment near = std::uint64_t{2} << 32;
+    constexpr Fragment near = std::uint64_t{1} << (32 + 13);
+    bool any_near = false;
     for (Fragment* i = begin + 1; i < end; ++i) {
         const Fragment f = *i;
         Fragment* j = i;
         for (; j > begin && j[-1] > f; --j) *j = j[-1];
         *j = f;
     }
-    for (Fragment* i = begin + 1; i < end; ++i) {
-        if (i[0] - i[-1] >= near) continue;
-        const double before = depth_plane(patches_.root_of_leaf[leaf_of(i[-1])]).at(x, y);
-        const double after = depth_plane(patches_.root_of_leaf[leaf_of(i[0])]).at(x, y);
-        const bool decided = std::abs(after - before) > depth_rounding;
-        if (decided ? before > after : static_cast<std::uint32_t>(i[-1]) > static_cast<std::uint32_t>(i[0]))
-            std::swap(i[-1], i[0]);
-    }
+    for (const Fragment* i = begin + 1; i < end; ++i) any_near |= i[0] - i[-1] < near;
+    if (!any_near) return;
+    for (Fragment* i = begin + 1; i < end; ++i)
+        for (Fragment* j = i; j > begin; --j) {
+            const Fragment gap = j[0] > j[-1] ? j[0] - j[-1] : j[-1] - j[0];
+            if (gap >= near || !is_behind(j[-1], j[0], x, y)) break;
+            std::swap(j[-1], j[0]);
+        }
 }
 
 void TransilluminationBuffer::draw(std::uint32_t root, const TileRect& rect, Scratch& scratch) const {
@@ -223,7 +244,7 @@ void TransilluminationBuffer::draw(std::uint32_t root, const TileRect& rect, Scr
         Fragment* const out = scratch.drawn.data() + scratch.count;
         std::uint16_t* const pixel = scratch.pixel.data() + scratch.count;
         std::uint32_t* const lengths = scratch.first.data() + row + 1;
-        auto z = static_cast<std::uint64_t>(static_cast<std::int64_t>(depth.at(x0, y)));
+        auto z = static_cast<std::uint64_t>(std::clamp(depth.at(x0, y), 0.0, 0x1p63));
         // Spans are short: one plain loop beats several that are vectorized.
         const auto emit = [&](int i, std::uint32_t leaf) {
             out[i] = (z & depth_bits) | (low + leaf);

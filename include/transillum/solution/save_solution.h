@@ -27,8 +27,11 @@ struct RunRecord {
 };
 
 /// Writes into a temporary folder beside the target and renames; an older solution of that name stays
-/// whole until then. Bytes of the VTK files depend on the solution alone.
-/// \throws UsageError unless `path` ends in .vtm; IoError where it cannot write (nothing is left behind).
+/// whole until then. Bytes of the VTK files depend on the solution alone. Of a side that is dark
+/// throughout nothing is kept: it loads with zeros, coverage and visibility among them.
+/// \throws UsageError unless `path` ends in .vtm; Error where the solution contradicts itself or holds a
+/// value that is not finite or out of range; IoError where it cannot write, or where NAME is a folder with
+/// files that are none of a solution's. Nothing is left behind then, and nothing changed.
 void save_solution(const Solution& solution, const RunRecord& run, const std::filesystem::path& path);
 
 }  // namespace transillum

@@ -28,8 +28,8 @@ public:
     ~Hemicube();
 
     /// The view from `position`, upwards along the third column of `frame`. One entry a patch.
-    /// Flux is kept: the sum of area * mean_kernel * visibility over patches is the cosine-weighted solid angle
-    /// (at most pi) under which any surface is seen.
+    /// Where patches have some dozens of pixels, flux is kept: the sum of area * mean_kernel * visibility over them
+    /// is the cosine-weighted solid angle (at most pi) under which they are seen.
     const std::vector<PatchView>& look(const glm::dvec3& position, const glm::dmat3& frame);
 
 private:
@@ -39,6 +39,7 @@ private:
         double seen = 0.0;      ///< cosine-weighted solid angle, where nearest
         double covered = 0.0;   ///< the same, where present at all
         double area = 0.0;      ///< surface behind these pixels
+        std::uint32_t pixels = 0;
     };
     struct Pixel {
         float distance;

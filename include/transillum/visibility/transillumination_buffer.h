@@ -85,11 +85,14 @@ private:
     void draw(std::uint32_t root, const struct TileRect& rect, Scratch& scratch) const;
     Plane depth_plane(std::uint32_t root) const;
     static std::array<Plane, 2> barycentric_planes(const std::array<struct FixedPoint, 3>& v, std::int64_t twice_area);
+    bool are_coplanar(std::uint32_t root_a, std::uint32_t root_b) const;
+    bool is_behind(Fragment a, Fragment b, int x, int y) const;
     void sort_list(Fragment* begin, Fragment* end, int x, int y) const;
 
     const SurfaceMesh& mesh_;
     const PatchHierarchy& patches_;
     double pixel_size_;
+    double plane_tolerance_;  ///< what snapping may move a vertex out of its plane
     int width_ = 0, height_ = 0, tiles_x_ = 0, tiles_y_ = 0;
     std::vector<ProjectedVertex> projected_;
     std::vector<Bins> bins_;

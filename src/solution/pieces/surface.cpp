@@ -23,6 +23,7 @@ void add_member(vtkFieldData& fields, const char* name, const std::vector<Struct
     using Stored = std::conditional_t<std::is_same_v<Value, bool>, std::uint8_t, Value>;
     if constexpr (std::is_same_v<Value, std::string>) {
         std::vector<std::string> strings;
+        strings.reserve(structs.size());
         for (const Struct& each : structs) strings.push_back(each.*member);
         add_strings(fields, name, strings);
     } else {

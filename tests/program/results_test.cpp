@@ -1,0 +1,142 @@
+// What must hold for the results of the program, whatever they are.
+#include "program/program.h"
+
+#include <transillum/solution/load_solution.h>
+
+#include <nlohmann/json.hpp>
+
+namespace transillum {
+
+namespace {
+
+constexpr const char* cornell = TRANSILLUM_SOURCE_DIR "/data/scenes/cornell.gltf";
+const std::string coarse = " --leaves 500 --iterations 32 --resolution 128 --hemicube 64 ";
+
+class Results : public Program {
+protected:
+    void bake_cornell(const std::string& name, const std::string& options = {}) const {
+        const Outcome o = run(std::string("-q bake ") + cornell + " -o " + name + coarse + options);
+        ASSERT_EQ(o.exit_code, 0) << o.err;
+    }
+};
+
+TEST_F(Results, DoNotDependOnTheNumberOfThreads) {
+    bake_cornell("one.vtm", "--threads 1");
+    const std::set<std::string> pieces = listing("one");
+    ASSERT_TRUE(pieces.contains("radiance.vtp") && pieces.contains("incoming.vtp"));
+    for (const char* threads : {"2", "8"}) {
+        const std::string name = std::string("with_") + threads;
+        bake_cornell(name + ".vtm", std::string("--threads ") + threads);
+        ASSERT_EQ(listing(name), pieces);
+        for (const std::string& piece : pieces) {
+            if (piece == "run.json") continue;
+            EXPECT_TRUE(read(name + "/" + piece) == read("one/" + piece))
+                << threads << ' ' << piece;
+        }
+        // Alike but for the folder they name.
+        std::string index = read(name + ".vtm");
+        for (std::size_t at; (at = index.find(name + "/")) != std::string::npos;)
+            index.replace(at, name.size(), "one");
+        EXPECT_EQ(index, read("one.vtm"));
+    }
+}
+
+TEST_F(Results, DependOnTheSeed) {
+    bake_cornell("a.vtm", "--seed 1");
+    bake_cornell("b.vtm", "--seed 2");
+    EXPECT_FALSE(read("a/radiance.vtp") == read("b/radiance.vtp"));
+}
+
+/// Doubling is exact in binary arithmetic, so the radiance is doubled to the last bit, as long as
+/// the fixed-point scale of the transport follows the emission.
+TEST_F(Results, DoubleWithTheEmission) {
+    for (const std::string first_shot : {"off", "hemicube"}) {
+        write_room("0.5", "1.25");
+        bake_room("single.vtm", "--hemicube 64 --first-shot " + first_shot);
+        write_room("0.5", "2.5");
+        bake_room("double.vtm", "--hemicube 64 --first-shot " + first_shot);
+        const Solution one = load_solution(folder_ / "single.vtm"),
+                       two = load_solution(folder_ / "double.vtm");
+        ASSERT_EQ(one.patches.patch_count(), two.patches.patch_count());
+        float brightest = 0.0f;
+        for (std::uint32_t p = 0; p < one.patches.patch_count(); ++p) {
+            EXPECT_EQ(2.0f * one.emission(p), two.emission(p));
+            EXPECT_EQ(2.0f * one.direct_radiance(p), two.direct_radiance(p)) << p;
+            EXPECT_EQ(2.0f * one.finite_element_radiance(p), two.finite_element_radiance(p)) << p;
+            brightest = std::max(brightest, max_channel(one.finite_element_radiance(p)));
+        }
+        EXPECT_GT(brightest, 0.0f);
+    }
+}
+
+TEST_F(Results, RenderWithoutTheScene) {
+    write_room("0.5", "1");
+    bake_room("room.vtm");
+    std::filesystem::remove(folder_ / "room.obj");
+    std::filesystem::remove(folder_ / "room.mtl");
+    const Outcome o =
+        run("-q render room.vtm -o out/p.png -o out/p.exr --size 16x12 --eye 0.5,0.5,0.9 --look-at "
+            "0.5,0.5,0");
+    EXPECT_EQ(o.exit_code, 0) << o.err;
+    EXPECT_EQ(listing("out"), (std::set<std::string>{"p.exr", "p.png"}));
+}
+
+/// In another second and with other threads: neither the time nor their number may enter the files.
+TEST_F(Results, RenderAlikeTwice) {
+    bake_cornell("c.vtm");
+    for (const char* camera : {"front", "corner"}) {
+        const std::string name = std::string("out/") + camera;
+        const std::string render =
+            std::string("\"$TRANSILLUM\" -q render c.vtm --size 40x30 --camera ") + camera;
+        const Outcome o = shell(render + " --threads 1 -o " + name + "1.exr -o " + name +
+                                "1.png && sleep 1.1 && " + render + " --threads 2 -o " + name +
+                                "2.exr -o " + name + "2.png");
+        ASSERT_EQ(o.exit_code, 0) << o.err;
+        for (const char* extension : {".exr", ".png"})
+            EXPECT_TRUE(read(name + "1" + extension) == read(name + "2" + extension))
+                << name << extension;
+    }
+    EXPECT_FALSE(read("out/front1.exr") == read("out/corner1.exr"));
+}
+
+TEST_F(Results, ReloadAsTheyWereSaved) {
+    bake_cornell("c.vtm");
+    const auto first = nlohmann::json::parse(run("info --json c.vtm").out);
+    EXPECT_EQ(first["iterations"], 32);
+    EXPECT_EQ(first["cameras"], nlohmann::json({"front", "corner"}));
+    EXPECT_EQ(first["settings"]["sides"], "file");
+    EXPECT_FALSE(first["decisions"].empty());
+}
+
+TEST_F(Results, CompareTellsByItsExitCode) {
+    bake_cornell("a.vtm", "--seed 1");
+    bake_cornell("b.vtm", "--seed 2");
+    EXPECT_EQ(run("compare a.vtm a.vtm --fail-above 0").exit_code, 0);
+    EXPECT_EQ(run("compare a.vtm b.vtm").exit_code, 0);
+    EXPECT_EQ(run("compare a.vtm b.vtm --fail-above 10").exit_code, 0);
+    const Outcome o = run("compare a.vtm b.vtm --fail-above 0 --json");
+    EXPECT_EQ(o.exit_code, 1);
+    EXPECT_GT(nlohmann::json::parse(o.out)["relative_rmse"].get<double>(), 0.0);
+}
+
+TEST_F(Results, HelpSaysTheDefaults) {
+    const std::pair<const char*, std::vector<const char*>> expected[] = {
+        {"bake",
+         {"--iterations", "=1024", "--max-level", "=8", "--max-albedo", "=0.99",
+          "--averaging balanced|paper=balanced"}},
+        {"render", {"--size WxH=500x500", "--samples", "=16", "--direct stored|traced=traced"}},
+        {"reference", {"--size WxH=500x500", "--samples", "=256", "--max-albedo", "=0.99"}},
+        {"info", {"SOLUTION", "--json"}},
+        {"compare", {"--fail-above", "--json"}}};
+    for (const auto& [subcommand, parts] : expected) {
+        const Outcome o = run(std::string(subcommand) + " --help");
+        EXPECT_EQ(o.exit_code, 0);
+        EXPECT_EQ(o.err, "");
+        for (const char* part : parts)
+            EXPECT_NE(o.out.find(part), std::string::npos) << subcommand << ": " << part;
+    }
+}
+
+}  // namespace
+
+}  // namespace transillum

@@ -1,0 +1,245 @@
+#include "support/closed_forms.h"
+#include "support/scene_builder.h"
+
+#include <transillum/base/error.h>
+#include <transillum/base/sampling.h>
+#include <transillum/visibility/hemicube.h>
+
+#include <gtest/gtest.h>
+#include <glm/geometric.hpp>
+
+#include <numbers>
+
+namespace transillum {
+namespace {
+
+using namespace testing_support;
+constexpr double pi = std::numbers::pi;
+
+/// About n, turned by a random angle.
+glm::dmat3 turned_frame(const glm::dvec3& n, Random& random) {
+    const double turn = 2.0 * pi * random.next(), c = std::cos(turn), s = std::sin(turn);
+    const glm::dmat3 f = frame_about(n);
+    return {c * f[0] + s * f[1], c * f[1] - s * f[0], f[2]};
+}
+
+struct Model {
+    SurfaceMesh mesh;
+    PatchHierarchy patches;
+    Model(const SceneBuilder& builder, int level)
+        : mesh(builder.surface()),
+          patches(subdivide_to_levels(std::vector<int>(mesh.triangles.size(), level))) {}
+
+    /// Cosine-weighted solid angle of the patches of one polygon and side, seen or not.
+    [[nodiscard]] double solid_angle(const std::vector<PatchView>& views, std::uint32_t polygon,
+                                     bool back, bool seen) const {
+        double sum = 0.0;
+        for (std::uint32_t p = 0; p < patches.patch_count(); ++p) {
+            const std::uint32_t root = patches.root_of_leaf[patches.leaf_of_patch(p)];
+            if (mesh.triangles[root].source_face != polygon || patches.is_back(p) != back) continue;
+            sum += leaf_area(mesh, patches, root) * views[p].mean_kernel *
+                   (seen ? views[p].visibility : 1.0f);
+        }
+        return sum;
+    }
+};
+
+constexpr int turns = 24;
+
+/// The same over random turns of the hemicube.
+Estimate seen_from(const Model& model, const glm::dvec3& point, const glm::dvec3& n,
+                   std::uint32_t polygon, int resolution, bool seen = true) {
+    Hemicube hemicube(model.mesh, model.patches, resolution);
+    Random random(12, 3);
+    std::vector<double> values;
+    for (int i = 0; i < turns; ++i)
+        values.push_back(
+            model.solid_angle(hemicube.look(point, turned_frame(n, random)), polygon, false, seen));
+    return estimate(values);
+}
+
+/// The midpoint rule over pixels is off by about (edge)^2 / 12, relative, beside the outline's
+/// noise.
+double midpoint_error(int resolution) {
+    return 4.0 / (12.0 * resolution * resolution);
+}
+
+void expect_near(const Estimate& e, double expected, int resolution) {
+    EXPECT_NEAR(e.mean, expected, 4.0 * e.error + midpoint_error(resolution) * expected);
+    EXPECT_LT(e.error, 2e-3 * expected);
+}
+
+TEST(Hemicube, SquareOverheadAgreesWithTheClosedForm) {
+    // Seen from below, facing down: clockwise from above.
+    SceneBuilder corner, centred;
+    corner.polygon({{0, 0, 1}, {0, 1, 1}, {1, 1, 1}, {1, 0, 1}});
+    centred.polygon({{-1, -1, 1}, {-1, 1, 1}, {1, 1, 1}, {1, -1, 1}});
+    for (const int level : {0, 3}) {
+        expect_near(seen_from(Model(corner, level), {0, 0, 0}, {0, 0, 1}, 0, 256), 0.1385316 * pi,
+                    256);
+        expect_near(seen_from(Model(centred, level), {0, 0, 0}, {0, 0, 1}, 0, 256), 1.740840, 256);
+    }
+    EXPECT_NEAR(polygon_irradiance(centred.scene.positions, {0, 0, 0}, {0, 0, 1}), 1.740840, 1e-6);
+}
+
+TEST(Hemicube, SlantedTriangleAgreesWithTheClosedForm) {
+    SceneBuilder builder;
+    builder.polygon({{-0.7, 0.2, 0.9}, {0.4, 1.1, 1.6}, {0.9, -0.4, 0.5}});
+    const glm::dvec3 n = glm::normalize(glm::dvec3(0.2, 0.1, 1.0));
+    expect_near(seen_from(Model(builder, 2), {0, 0, 0}, n, 0, 256),
+                polygon_irradiance(builder.scene.positions, {0, 0, 0}, n), 256);
+}
+
+TEST(Hemicube, AClosedBoxFillsTheHemisphere) {
+    SceneBuilder builder;
+    builder.box({0, 0, 0}, {1, 1, 1}, Facing::inwards);
+    const Model model(builder, 3);
+    Hemicube hemicube(model.mesh, model.patches, 128);
+    Random random(3, 1);
+    for (int i = 0; i < 12; ++i) {
+        const glm::dvec3 n = uniform_direction((i + 0.5) / 12.0, random.next());
+        const glm::dvec3 point(0.1 + 0.8 * random.next(), 0.1 + 0.8 * random.next(),
+                               0.1 + 0.8 * random.next());
+        const auto& views = hemicube.look(point, turned_frame(n, random));
+        double front = 0.0, back = 0.0;
+        for (std::uint32_t f = 0; f < 6; ++f) {
+            front += model.solid_angle(views, f, false, true);
+            back += model.solid_angle(views, f, true, true);
+        }
+        // Pixels' weights are at the midpoints; a seam may lose a pixel in a hundred thousand.
+        EXPECT_NEAR(front, pi, 1e-4 * pi);
+        EXPECT_EQ(back, 0.0);
+    }
+}
+
+TEST(Hemicube, AScreenHidesHalf) {
+    SceneBuilder builder;
+    builder.polygon({{-1, -1, 1}, {-1, 1, 1}, {1, 1, 1}, {1, -1, 1}});
+    builder.polygon({{0, -2, 0.5}, {0, 2, 0.5}, {2, 2, 0.5}, {2, -2, 0.5}});
+    const Model model(builder, 4);
+    expect_near(seen_from(model, {0, 0, 0}, {0, 0, 1}, 0, 256), 1.740840 / 2.0, 256);
+    // As if unoccluded, it is whole: flux is kept for what is seen, which scales the rest alike.
+    const Estimate whole = seen_from(model, {0, 0, 0}, {0, 0, 1}, 0, 256, false);
+    EXPECT_NEAR(whole.mean, 1.740840, 0.005 * 1.740840);
+}
+
+/// A floor half below the horizon of a lamp that shines sideways.
+TEST(Hemicube, ALeafAcrossTheHorizonCountsWhatIsAbove) {
+    SceneBuilder builder;
+    builder.polygon({{-2, -1, -1}, {1, -1, -1}, {0.5, 1, -1}});
+    const Model model(builder, 0);
+    const glm::dvec3 n(1, 0, 0);
+    // Clipped at x = 0 by hand: on the lower edge and on the one from (0.5, 1) to (-2, -1).
+    const double expected =
+        polygon_irradiance({{0, -1, -1}, {1, -1, -1}, {0.5, 1, -1}, {0, 0.6, -1}}, {0, 0, 0}, n);
+    expect_near(seen_from(model, {0, 0, 0}, n, 0, 256), expected, 256);
+    // Flux is kept by a common factor: beside a wall wholly above, it cannot make up for a wrong
+    // share.
+    builder.polygon({{2, -1, 0}, {2, -1, 1}, {2, 1, 1}, {2, 1, 0}});
+    EXPECT_NEAR(seen_from(Model(builder, 0), {0, 0, 0}, n, 0, 256).mean, expected, 0.03 * expected);
+    // The mean is over the whole leaf, of which the part below adds nothing.
+    Hemicube hemicube(model.mesh, model.patches, 256);
+    Random random(2, 2);
+    std::vector<double> kernels;
+    for (int i = 0; i < turns; ++i)
+        kernels.push_back(hemicube.look({0, 0, 0}, turned_frame(n, random))[0].mean_kernel);
+    expect_near(estimate(kernels), expected / area_of(model.mesh, 0), 256);
+}
+
+TEST(Hemicube, OwnPlaneAndWhatLiesBehindSeeNothing) {
+    SceneBuilder builder;
+    builder.polygon(
+        {{-1, -1, 0.3}, {1, -1, 0.3}, {1, 1, 0.3}, {-1, 1, 0.3}});          // the point's own plane
+    builder.polygon({{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}});  // behind
+    builder.polygon({{-1, -1, 1.3}, {-1, 1, 1.3}, {1, 1, 1.3}, {1, -1, 1.3}});  // overhead
+    const Model model(builder, 2);
+    Hemicube hemicube(model.mesh, model.patches, 64);
+    Random random(4, 9);
+    for (int i = 0; i < turns; ++i) {
+        const auto& views = hemicube.look({0.1, -0.2, 0.3}, turned_frame({0, 0, 1}, random));
+        for (const bool back : {false, true})
+            for (const bool seen : {false, true}) {
+                EXPECT_EQ(model.solid_angle(views, 0, back, seen), 0.0);
+                EXPECT_EQ(model.solid_angle(views, 1, back, seen), 0.0);
+            }
+        EXPECT_GT(model.solid_angle(views, 2, false, true), 1.0);
+        EXPECT_EQ(model.solid_angle(views, 2, true, true), 0.0);
+    }
+}
+
+/// The same on planes in which rounding leaves a point a little above or below.
+TEST(Hemicube, APointOnASlantedPlaneDoesNotSeeIt) {
+    Random random(7, 7);
+    for (int i = 0; i < 50; ++i) {
+        const double u = random.next();
+        const glm::dmat3 f = frame_about(uniform_direction(u, random.next()));
+        SceneBuilder builder;
+        builder.polygon({f[0], -0.5 * f[0] + 0.8 * f[1], -0.5 * f[0] - 0.8 * f[1]});
+        builder.polygon({10.0 * f[2], 10.0 * f[2] + 0.1 * f[1], 10.0 * f[2] + 0.1 * f[0]});
+        const Model model(builder, 1);
+        Hemicube hemicube(model.mesh, model.patches, 64);
+        const auto& v = model.mesh.triangles[0].vertices;
+        const glm::dvec3 point = 0.25 * model.mesh.positions[v[0]] +
+                                 0.35 * model.mesh.positions[v[1]] +
+                                 0.4 * model.mesh.positions[v[2]];
+        const auto& views = hemicube.look(point, turned_frame(normal_of(model.mesh, 0), random));
+        for (const bool back : {false, true})
+            EXPECT_EQ(model.solid_angle(views, 0, back, true), 0.0);
+    }
+}
+
+TEST(Hemicube, PatchesBetweenPixelsGetTheirKernel) {
+    SceneBuilder builder;
+    builder.polygon({{-4, -4, 4}, {-4, 4, 4}, {4, 4, 4}, {4, -4, 4}});
+    const double size = 1e-4;
+    const glm::dvec3 at(0.2, 0.1, 1.0);
+    builder.polygon({at, at + glm::dvec3(0, size, 0), at + glm::dvec3(size, 0, 0)});
+    const glm::dvec3 hidden(0.6, 0.5, 5.0);
+    builder.polygon({hidden, hidden + glm::dvec3(0, size, 0), hidden + glm::dvec3(size, 0, 0)});
+    Model model(builder, 0);
+    model.patches = subdivide_to_levels({4, 4, 0, 0});
+    const std::uint32_t shown = 2 * 256, behind = shown + 1;
+    Hemicube hemicube(model.mesh, model.patches, 64);
+    Random random(3, 8);
+    for (int i = 0; i < turns; ++i) {
+        const auto& views = hemicube.look({0, 0, 0}, turned_frame({0, 0, 1}, random));
+        const auto kernel = [](const glm::dvec3& p) {
+            return p.z * p.z / (glm::dot(p, p) * glm::dot(p, p));
+        };
+        // Flux is kept by a common factor, here of a ceiling at 64 pixels: within a percent.
+        EXPECT_NEAR(views[shown].mean_kernel / kernel(at), 1.0, 0.01);
+        EXPECT_EQ(views[shown].visibility, 1.0f);
+        EXPECT_NEAR(views[behind].mean_kernel / kernel(hidden), 1.0, 0.01);
+        EXPECT_EQ(views[behind].visibility, 0.0f);
+    }
+}
+
+TEST(Hemicube, EveryValueIsInItsRange) {
+    SceneBuilder builder;
+    builder.box({0, 0, 0}, {1, 1, 1}, Facing::inwards);
+    builder.sphere({0.5, 0.5, 0.4}, 0.2, 20, Facing::outwards);
+    const Model model(builder, 2);
+    Hemicube hemicube(model.mesh, model.patches, 64);
+    Random random(11, 8);
+    for (int i = 0; i < 20; ++i) {
+        const double x = random.next(), y = random.next();
+        for (const PatchView& v : hemicube.look({x, y, 1.0}, turned_frame({0, 0, -1}, random))) {
+            ASSERT_TRUE(std::isfinite(v.mean_kernel));
+            ASSERT_GE(v.mean_kernel, 0.0f);
+            ASSERT_GE(v.visibility, 0.0f);
+            ASSERT_LE(v.visibility, 1.0f);
+        }
+    }
+}
+
+TEST(Hemicube, RefusesResolutionsItCannotDo) {
+    SceneBuilder builder;
+    builder.box({0, 0, 0}, {1, 1, 1}, Facing::inwards);
+    const Model model(builder, 0);
+    for (const int bad : {-2, 0, 14, 17, 4098})
+        EXPECT_THROW(Hemicube(model.mesh, model.patches, bad), UsageError);
+    EXPECT_NO_THROW(Hemicube(model.mesh, model.patches, 16));
+}
+
+}  // namespace
+}  // namespace transillum
