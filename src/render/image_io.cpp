@@ -74,6 +74,8 @@ void write_raster(const Raster& raster, const fs::path& path, const fs::path& na
     OIIO::ImageSpec spec(raster.width, raster.height, static_cast<int>(raster.channels.size()),
                          raster.stored_as);
     spec.channelnames = raster.channels;
+    // Else the time of writing is stored, and equal images would be different files.
+    spec.attribute("DateTime", "1970:01:01 00:00:00");
     const bool written = file->open(path.string(), spec) &&
                          file->write_image(OIIO::TypeDesc::FLOAT, raster.values.data());
     if (!file->close() || !written)

@@ -32,10 +32,6 @@ std::uint32_t lower_slot(Fragment f) {
     return upper_slot(f) ^ 1u;
 }
 
-Received in_units(const FixedRadiance& sum, double unit) {
-    return {SpectrumSum(sum.lane[0], sum.lane[1], sum.lane[2]) * unit, static_cast<double>(sum.lane[3])};
-}
-
 }  // namespace
 
 Exchange::Exchange(std::uint32_t leaf_count, const Clusters& clusters, const Workers& workers)
@@ -53,11 +49,6 @@ Exchange::Exchange(std::uint32_t leaf_count, const Clusters& clusters, const Wor
         p.transfer.resize(std::size_t{cluster_count_ + 1} * (cluster_count_ + 1));
     }
     radiance_.back().lane = FixedRadiance::Lanes{0, 0, 0, 1};  // the environment is dark, and is seen
-}
-
-std::uint32_t Exchange::slot_of(std::uint32_t patch) const {
-    if (patch == 2 * leaf_count_) return patch;
-    return patch < leaf_count_ ? 2 * patch + 1 : 2 * (patch - leaf_count_);
 }
 
 void Exchange::set_radiance(const std::vector<Spectrum>& radiance, double most_fragments) {
@@ -137,22 +128,10 @@ void Exchange::transfer(TransilluminationBuffer& buffer, const Bundle& bundle) {
     });
 }
 
-void Exchange::collect(const std::function<void(std::uint32_t, const Received&)>& take) {
-    workers_.for_ranges(radiance_.size(), 16384, [&](std::size_t begin, std::size_t end, int) {
-        for (std::size_t patch = begin; patch < end; ++patch) {
-            const std::uint32_t slot = slot_of(static_cast<std::uint32_t>(patch));
-            FixedRadiance sum;
-            for (Partial& p : partials_) {
-                sum += p.received[slot];
-                p.received[slot] = {};
-            }
-            take(static_cast<std::uint32_t>(patch), in_units(sum, unit_));
-        }
-    });
-    for (Partial& p : partials_) {
-        fragments_ += p.fragments;
-        p.fragments = 0;
-    }
+std::uint64_t Exchange::fragments() const {
+    std::uint64_t sum = 0;
+    for (const Partial& p : partials_) sum += p.fragments;
+    return sum;
 }
 
 void Exchange::collect(ClusterTransfer& sum) {

@@ -10,7 +10,6 @@
 #include <transillum/visibility/transillumination_buffer.h>
 
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 namespace transillum {
@@ -52,12 +51,22 @@ public:
     /// Transfers the radiance of all patches along one bundle, both ways.
     void transfer(TransilluminationBuffer& buffer, const Bundle& bundle);
 
-    /// Hands out what arrived since the last call, patch by patch, several ranges at once, and starts anew.
-    void collect(const std::function<void(std::uint32_t patch, const Received&)>& take);
+    /// Takes out what arrived at a patch since it was last taken; patch 2 * leaf_count is the environment.
+    /// Different patches may be taken at once.
+    [[nodiscard]] Received take(std::uint32_t patch) {
+        const std::uint32_t slot = slot_of(patch);
+        FixedRadiance sum;
+        for (Partial& p : partials_) {
+            sum += p.received[slot];
+            p.received[slot] = {};
+        }
+        return in_units(sum, unit_);
+    }
     /// Adds what clusters sent each other since the last call, and what left the scene is receiver `count`.
     void collect(ClusterTransfer& sum);
 
-    [[nodiscard]] std::uint64_t fragments() const { return fragments_; }
+    /// Exchanged so far.
+    [[nodiscard]] std::uint64_t fragments() const;
 
 private:
     struct Partial {
@@ -67,7 +76,13 @@ private:
     };
     void exchange_tile(const TileLists& tile, int cluster_row, Partial& partial) const;
 
-    [[nodiscard]] std::uint32_t slot_of(std::uint32_t patch) const;
+    [[nodiscard]] std::uint32_t slot_of(std::uint32_t patch) const {
+        if (patch == 2 * leaf_count_) return patch;
+        return patch < leaf_count_ ? 2 * patch + 1 : 2 * (patch - leaf_count_);
+    }
+    static Received in_units(const FixedRadiance& sum, double unit) {
+        return {SpectrumSum(sum.lane[0], sum.lane[1], sum.lane[2]) * unit, static_cast<double>(sum.lane[3])};
+    }
 
     std::uint32_t leaf_count_, cluster_count_;
     const Workers& workers_;
@@ -75,7 +90,6 @@ private:
     std::vector<FixedRadiance> radiance_;  ///< one a slot, then the environment
     std::vector<std::uint8_t> cluster_;    ///< one a slot, then the environment
     std::vector<Partial> partials_;        ///< one a worker
-    std::uint64_t fragments_ = 0;
 };
 
 }  // namespace transillum

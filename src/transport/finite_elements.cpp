@@ -12,28 +12,29 @@ constexpr int least_blocks_for_error = 8;
 /// Weight that an earlier estimate keeps beside the first new fragments.
 constexpr double prior_weight = 0x1p-14;
 
+void add(PatchSums& s, const Received& block, double weight) {
+    if (block.coverage == 0.0) return;
+    const SpectrumSum r = weight * block.radiance;
+    const double c = weight * block.coverage;
+    s.received += r;
+    s.coverage += c;
+    s.fragments += block.coverage;
+    s.received_squared += r * r;
+    s.received_coverage += r * c;
+    s.coverage_squared += c * c;
+}
+
 }  // namespace
 
 FiniteElementComponent::FiniteElementComponent(const PatchSources& sources, const Workers& workers)
     : sources_(sources), workers_(workers), sums_(sources.albedo.size()), radiance_(sources.albedo.size()) {}
 
 void FiniteElementComponent::average_in(Exchange& exchange, std::uint64_t directions, double weight) {
-    exchange.collect([&](std::uint32_t patch, const Received& block) {
-        if (patch == sums_.size()) {
-            escaped_ += weight * block.radiance;
-            return;
-        }
-        if (block.coverage == 0.0) return;
-        PatchSums& s = sums_[patch];
-        const SpectrumSum r = weight * block.radiance;
-        const double c = weight * block.coverage;
-        s.received += r;
-        s.coverage += c;
-        s.fragments += block.coverage;
-        s.received_squared += r * r;
-        s.received_coverage += r * c;
-        s.coverage_squared += c * c;
+    workers_.for_ranges(sums_.size(), grain, [&](std::size_t begin, std::size_t end, int) {
+        for (std::size_t patch = begin; patch < end; ++patch)
+            add(sums_[patch], exchange.take(static_cast<std::uint32_t>(patch)), weight);
     });
+    escaped_ += weight * exchange.take(patch_count()).radiance;
     weights_ += weight * static_cast<double>(directions);
     ++blocks_;
 }

@@ -39,6 +39,7 @@ public:
         : mesh_(mesh),
           patches_(patches),
           options_(options),
+          workers_(workers),
           monitor_(monitor),
           buffer_(mesh, patches, options.pixel_size),
           clusters_(options.averaging == Averaging::balanced ? make_clusters(mesh, patches) : Clusters{}),
@@ -111,14 +112,28 @@ private:
 
     /// Root mean square error over the mean, both weighted with area, of the luminance.
     double estimate_error() const {
-        double variance = 0.0, mean = 0.0;
-        for (std::uint32_t p = 0; p < component_.patch_count(); ++p) {
-            if (component_.coverage(p) == 0.0) continue;
-            const double area = area_of_patch(p);
-            mean += area * luminance(component_.incoming(p));
-            variance += area * luminance(component_.incoming_variance(p));
+        struct Sums {
+            double variance = 0.0, mean = 0.0;
+        };
+        constexpr std::uint32_t range = 1 << 14;  // fixed, so that sums don't depend on the threads
+        std::vector<Sums> partial(component_.patch_count() / range + 1);
+        workers_.for_ranges(partial.size(), 1, [&](std::size_t begin, std::size_t end, int) {
+            for (std::size_t r = begin; r < end; ++r) {
+                const auto first = static_cast<std::uint32_t>(r * range);
+                for (std::uint32_t p = first; p < std::min(first + range, component_.patch_count()); ++p) {
+                    if (component_.coverage(p) == 0.0) continue;
+                    const double area = area_of_patch(p);
+                    partial[r].mean += area * luminance(component_.incoming(p));
+                    partial[r].variance += area * luminance(component_.incoming_variance(p));
+                }
+            }
+        });
+        Sums all;
+        for (const Sums& s : partial) {
+            all.mean += s.mean;
+            all.variance += s.variance;
         }
-        return mean > 0.0 ? std::sqrt(variance * total_area_) / mean : 0.0;
+        return all.mean > 0.0 ? std::sqrt(all.variance * total_area_) / all.mean : 0.0;
     }
 
     double area_of_patch(std::uint32_t patch) const {
@@ -161,6 +176,7 @@ private:
     const SurfaceMesh& mesh_;
     const PatchHierarchy& patches_;
     const IterationOptions& options_;
+    const Workers& workers_;
     Monitor& monitor_;
     TransilluminationBuffer buffer_;
     Clusters clusters_;

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <limits>
+#include <cstdlib>
 
 namespace transillum {
 
@@ -36,50 +36,53 @@ struct TileRect {
     std::int32_t x0 = 0, y0 = 0, x1 = 0, y1 = 0;
 };
 
-/// Walks where one edge crosses the pixel rows: quotient and remainder of a division stepped row by row.
+/// Where one edge crosses the pixel rows: quotient and remainder of a division, stepped row by row. An edge bounds
+/// spans at their start or at their end; which, is not a branch: small triangles would mispredict it.
 class EdgeWalk {
 public:
-    /// Never constrains: its crossing stays at `x`.
-    explicit EdgeWalk(std::int32_t x) : quotient_(x) {}
-    /// Crossing at x + floor((numerator + row * step) / divisor), divisor > 0.
-    EdgeWalk(std::int32_t x, std::int32_t numerator, std::int32_t step, std::int32_t divisor)
-        : divisor_(divisor), step_quotient_(floor_div(step, divisor)) {
-        const std::int32_t quotient = floor_div(numerator, divisor);
-        quotient_ = x + quotient;
-        remainder_ = numerator - quotient * divisor;
-        step_remainder_ = step - step_quotient_ * divisor;
+    /// No bound within [x_begin, x_end).
+    EdgeWalk(std::int32_t x_begin, std::int32_t x_end) : quotient_(x_begin), start_mask_(-1), x_end_(x_end), x_begin_(x_begin) {}
+    /// Inside is where a * x + b * row + c >= 0, x counted from x_begin; a != 0.
+    EdgeWalk(std::int32_t a, std::int32_t b, std::int32_t c, std::int32_t x_begin, std::int32_t x_end)
+        : divisor_(std::abs(a)), start_mask_(a > 0 ? -1 : 0), x_end_(x_end), x_begin_(x_begin) {
+        // a > 0: from ceil(-(b row + c) / a) on; a < 0: up to floor((b row + c) / -a).
+        const std::int32_t numerator = a > 0 ? a - 1 - c : c - a;
+        const std::int32_t step = a > 0 ? -b : b;
+        const std::int32_t quotient = floor_div(numerator, divisor_);
+        quotient_ = x_begin + quotient;
+        remainder_ = numerator - quotient * divisor_;
+        step_quotient_ = floor_div(step, divisor_);
+        step_remainder_ = step - step_quotient_ * divisor_;
     }
-    [[nodiscard]] std::int32_t crossing() const { return quotient_; }
+    [[nodiscard]] std::int32_t start() const { return (quotient_ & start_mask_) | (x_begin_ & ~start_mask_); }
+    [[nodiscard]] std::int32_t end() const { return (quotient_ & ~start_mask_) | (x_end_ & start_mask_); }
     void next_row() {
         quotient_ += step_quotient_;
-        remainder_ += step_remainder_;
-        const std::int32_t carry = remainder_ >= divisor_ ? 1 : 0;
-        quotient_ += carry;
-        remainder_ -= carry * divisor_;
+        remainder_ += step_remainder_ - divisor_;
+        const std::int32_t no_carry = remainder_ >> 31;  // -1 or 0
+        quotient_ += 1 + no_carry;
+        remainder_ += divisor_ & no_carry;
     }
 
 private:
     static std::int32_t floor_div(std::int32_t a, std::int32_t b) { return a / b - (a % b < 0 ? 1 : 0); }
 
     std::int32_t divisor_ = 1, quotient_ = 0, remainder_ = 0, step_quotient_ = 0, step_remainder_ = 0;
+    std::int32_t start_mask_, x_end_, x_begin_;
 };
 
 /// Calls `span(y, x0, x1)` for every row of `rect` where pixel centres [x0, x1) lie in the triangle.
 /// \pre twice_area(v[0], v[1], v[2]) > 0
 template <class Span>
-inline void scan_convert(const std::array<FixedPoint, 3>& v, const TileRect& rect, Span&& span) {
-    const auto [left, right] = std::minmax({v[0].x, v[1].x, v[2].x});
-    const auto [low, high] = std::minmax({v[0].y, v[1].y, v[2].y});
-    const std::int32_t x_begin = std::max(rect.x0, first_centre(left));
-    const std::int32_t x_end = std::min(rect.x1, (right >> sub_pixel_bits) + 1);
-    const std::int32_t y_begin = std::max(rect.y0, first_centre(low));
-    std::int32_t y_first = y_begin;
-    std::int32_t y_end = std::min(rect.y1, (high >> sub_pixel_bits) + 1);
+[[gnu::always_inline]] inline void scan_convert(const std::array<FixedPoint, 3>& v, const TileRect& rect, Span&& span) {
+    const std::int32_t x_begin = std::max(rect.x0, first_centre(std::min({v[0].x, v[1].x, v[2].x})));
+    const std::int32_t x_end = std::min(rect.x1, (std::max({v[0].x, v[1].x, v[2].x}) >> sub_pixel_bits) + 1);
+    const std::int32_t y_begin = std::max(rect.y0, first_centre(std::min({v[0].y, v[1].y, v[2].y})));
+    std::int32_t y_end = std::min(rect.y1, (std::max({v[0].y, v[1].y, v[2].y}) >> sub_pixel_bits) + 1);
     if (x_begin >= x_end || y_begin >= y_end) return;
 
-    std::array<EdgeWalk, 2> starts{EdgeWalk(x_begin), EdgeWalk(x_begin)};
-    std::array<EdgeWalk, 2> ends{EdgeWalk(x_end), EdgeWalk(x_end)};
-    int start_count = 0, end_count = 0;
+    std::int32_t y_first = y_begin;
+    std::array<EdgeWalk, 3> edges{EdgeWalk(x_begin, x_end), EdgeWalk(x_begin, x_end), EdgeWalk(x_begin, x_end)};
     const std::int32_t width = x_end - 1 - x_begin;
     const std::int32_t height = y_end - 1 - y_begin;
     for (int i = 0; i < 3; ++i) {
@@ -98,24 +101,18 @@ inline void scan_convert(const std::array<FixedPoint, 3>& v, const TileRect& rec
         if (c + std::max<std::int64_t>(dx, 0) + std::max<std::int64_t>(dy, 0) < 0) return;
         // The edge crosses this rectangle, so its values here are below 2 * 64 * 2^22.
         const auto c32 = static_cast<std::int32_t>(c);
-        if (a > 0) {
-            // x >= ceil(-(b y + c) / a)
-            starts[start_count++] = EdgeWalk(x_begin, a - 1 - c32, -b, a);
-        } else if (a < 0) {
-            // x < floor((b y + c) / -a) + 1
-            ends[end_count++] = EdgeWalk(x_begin, c32 - a, b, -a);
-        } else if (b > 0) {
+        if (a != 0)
+            edges[i] = EdgeWalk(a, b, c32, x_begin, x_end);
+        else if (b > 0)
             y_first = y_begin + (b - 1 - c32) / b;
-        } else {
+        else
             y_end = y_begin + c32 / -b + 1;
-        }
     }
     for (std::int32_t y = y_begin; y < y_end; ++y) {
-        const std::int32_t x0 = std::max({x_begin, starts[0].crossing(), starts[1].crossing()});
-        const std::int32_t x1 = std::min({x_end, ends[0].crossing(), ends[1].crossing()});
+        const std::int32_t x0 = std::max({x_begin, edges[0].start(), edges[1].start(), edges[2].start()});
+        const std::int32_t x1 = std::min({x_end, edges[0].end(), edges[1].end(), edges[2].end()});
         if (x0 < x1 && y >= y_first) span(y, x0, x1);
-        for (EdgeWalk& e : starts) e.next_row();
-        for (EdgeWalk& e : ends) e.next_row();
+        for (EdgeWalk& e : edges) e.next_row();
     }
 }
 

@@ -23,6 +23,16 @@ constexpr double depth_margin = 0x1p40;
 constexpr double depth_rounding = 0x1p24;
 constexpr std::uint64_t depth_bits = 0xffffffff00000000u;
 
+/// Pixels of a span that are drawn at once.
+constexpr int block = 8;
+
+std::array<std::uint32_t, block> leaves_of_block(int level, float s0, float ds, float t0, float dt) {
+    std::array<std::uint32_t, block> leaves;
+    for (int i = 0; i < block; ++i)
+        leaves[i] = leaf_in_root(level, s0 + ds * static_cast<float>(i), t0 + dt * static_cast<float>(i));
+    return leaves;
+}
+
 struct Bounds {
     glm::dvec3 low{std::numeric_limits<double>::infinity()};
     glm::dvec3 high{-std::numeric_limits<double>::infinity()};
@@ -51,12 +61,14 @@ struct TransilluminationBuffer::Scratch {
     TileRect rect;
     std::vector<Fragment> drawn, sorted;
     std::vector<std::uint16_t> pixel;
-    std::vector<std::uint32_t> first = std::vector<std::uint32_t>(tile_size * tile_size + 1);
+    std::vector<std::uint32_t> first = std::vector<std::uint32_t>(tile_size * tile_size + 1 + block);
     std::size_t count = 0;
 
-    void reserve_row() {
-        if (drawn.size() >= count + tile_size) return;
-        drawn.resize(std::max<std::size_t>(2 * drawn.size(), 8 * tile_size * tile_size));
+    /// Makes room for a triangle that covers the tile.
+    void reserve() {
+        constexpr std::size_t most = tile_size * tile_size + block;
+        if (drawn.size() >= count + most) return;
+        drawn.resize(2 * drawn.size() + 8 * most);
         pixel.resize(drawn.size());
     }
 };
@@ -216,6 +228,10 @@ void TransilluminationBuffer::sort_list(Fragment* begin, Fragment* end, int x, i
         }
 }
 
+// Without fused multiplication both versions give the same bits.
+#if defined(__x86_64__) && defined(__GNUC__)
+__attribute__((target_clones("avx2", "default")))
+#endif
 void TransilluminationBuffer::draw(std::uint32_t root, const TileRect& rect, Scratch& scratch) const {
     const auto& vertices = mesh_.triangles[root].vertices;
     std::array<const ProjectedVertex*, 3> p;
@@ -238,32 +254,35 @@ void TransilluminationBuffer::draw(std::uint32_t root, const TileRect& rect, Scr
     const std::uint64_t low = facing | patches.first_leaf;
     const auto ds = static_cast<float>(b[0].dx), dt = static_cast<float>(b[1].dx);
 
-    scan_convert(fixed, rect, [&](std::int32_t y, std::int32_t x0, std::int32_t x1) {
-        scratch.reserve_row();
-        const int row = (y - rect.y0) * (rect.x1 - rect.x0) + (x0 - rect.x0);
-        Fragment* const out = scratch.drawn.data() + scratch.count;
-        std::uint16_t* const pixel = scratch.pixel.data() + scratch.count;
-        std::uint32_t* const lengths = scratch.first.data() + row + 1;
+    scratch.reserve();
+    Fragment* out = scratch.drawn.data() + scratch.count;
+    std::uint16_t* pixel = scratch.pixel.data() + scratch.count;
+    std::uint32_t* const lengths = scratch.first.data() + 1;
+    const int width = rect.x1 - rect.x0;
+    std::array<std::uint64_t, block> ramp;
+    for (int i = 0; i < block; ++i) ramp[i] = static_cast<std::uint64_t>(i) * dz;
+    scan_convert(fixed, rect, [&](std::int32_t y, std::int32_t x0, std::int32_t x1) __attribute__((always_inline)) {
+        int at = (y - rect.y0) * width + (x0 - rect.x0);
+        int length = x1 - x0;
         auto z = static_cast<std::uint64_t>(std::clamp(depth.at(x0, y), 0.0, 0x1p63));
-        // Spans are short: one plain loop beats several that are vectorized.
-        const auto emit = [&](int i, std::uint32_t leaf) {
-            out[i] = (z & depth_bits) | (low + leaf);
-            pixel[i] = static_cast<std::uint16_t>(row + i);
-            ++lengths[i];
-            z += dz;
-        };
-        const int length = x1 - x0;
-        if (patches.level == 0) {
-            for (int i = 0; i < length; ++i) emit(i, 0);
-        } else {
-            const auto s0 = static_cast<float>(b[0].at(x0, y)), t0 = static_cast<float>(b[1].at(x0, y));
-            for (int i = 0; i < length; ++i) {
-                const auto step = static_cast<float>(i);
-                emit(i, leaf_in_root(patches.level, s0 + ds * step, t0 + dt * step));
-            }
+        auto s0 = static_cast<float>(b[0].at(x0, y)), t0 = static_cast<float>(b[1].at(x0, y));
+        // Whole blocks, of which the next span overwrites what is too much: short spans would mispredict a loop's end.
+        for (; length > 0; length -= block) {
+            const std::array<std::uint32_t, block> leaf = patches.level == 0 ? std::array<std::uint32_t, block>{}
+                                                                             : leaves_of_block(patches.level, s0, ds, t0, dt);
+            for (int i = 0; i < block; ++i) out[i] = ((z + ramp[i]) & depth_bits) | (low + leaf[i]);
+            for (int i = 0; i < block; ++i) pixel[i] = static_cast<std::uint16_t>(at + i);
+            for (int i = 0; i < block; ++i) lengths[at + i] += i < length ? 1 : 0;
+            const int taken = std::min(length, block);
+            out += taken;
+            pixel += taken;
+            at += block;
+            z += block * dz;
+            s0 += block * ds;
+            t0 += block * dt;
         }
-        scratch.count += length;
     });
+    scratch.count = static_cast<std::size_t>(out - scratch.drawn.data());
 }
 
 void TransilluminationBuffer::fill_tile(int tile, Scratch& scratch) const {

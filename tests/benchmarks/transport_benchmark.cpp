@@ -8,6 +8,8 @@
 #include <benchmark/benchmark.h>
 #include <embree3/rtcore.h>
 
+#include <array>
+
 namespace {
 
 using namespace transillum;
@@ -16,14 +18,14 @@ using benchmarks::room_of_spheres;
 constexpr int window = 1000;
 constexpr int threads = 2;
 
-const SurfaceMesh& scene_of(std::int64_t thousand_triangles) {
-    static const SurfaceMesh small = room_of_spheres(1, 4);
-    static const SurfaceMesh middle = room_of_spheres(4, 15);    // 54 k
-    static const SurfaceMesh large = room_of_spheres(4, 39);     // 374 k
-    return thousand_triangles < 10 ? small : thousand_triangles < 100 ? middle : large;
+/// Rooms with spheres in them: 0: one of 48 triangles; 1: eight, 52 k in all; 2: 64, 54 k; 3: 64, 379 k.
+const SurfaceMesh& scene_of(std::int64_t number) {
+    static const std::array<SurfaceMesh, 4> scenes{room_of_spheres(1, 4), room_of_spheres(2, 41), room_of_spheres(4, 15),
+                                                   room_of_spheres(4, 39)};
+    return scenes.at(static_cast<std::size_t>(number));
 }
 
-/// Arguments: thousands of triangles, level of every root.
+/// Arguments: scene, level of every root.
 void whole_iteration(benchmark::State& state) {
     const SurfaceMesh& mesh = scene_of(state.range(0));
     const PatchHierarchy patches = subdivide_to_levels(
@@ -34,7 +36,7 @@ void whole_iteration(benchmark::State& state) {
     const Workers workers(threads);
     Monitor silent;
     IterationOptions options;
-    options.iterations = 128;
+    options.iterations = 1024;
     options.pixel_size = pixel_size_for(mesh, window);
     std::uint64_t fragments = 0, directions = 0;
     for (auto _ : state) {
@@ -64,7 +66,7 @@ RTCScene embree_scene(RTCDevice device, const SurfaceMesh& mesh) {
     return scene;
 }
 
-/// Argument: thousands of triangles. Rays from random points of the room in random directions, one at a time.
+/// Argument: scene. Rays from random points of the room in random directions, one at a time.
 void incoherent_rays(benchmark::State& state) {
     RTCDevice device = rtcNewDevice(nullptr);
     RTCScene scene = embree_scene(device, scene_of(state.range(0)));
@@ -101,8 +103,9 @@ void incoherent_rays(benchmark::State& state) {
     rtcReleaseDevice(device);
 }
 
-BENCHMARK(incoherent_rays)->Arg(1)->Arg(51)->Arg(374)->UseRealTime()->Unit(benchmark::kMillisecond);
-BENCHMARK(whole_iteration)->Args({1, 5})->Args({51, 0})->Args({51, 1})->Args({51, 2})->Args({374, 0})
+BENCHMARK(incoherent_rays)->ArgName("scene")->Arg(0)->Arg(1)->Arg(2)->Arg(3)->UseRealTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(whole_iteration)->ArgNames({"scene", "level"})
+    ->Args({0, 4})->Args({0, 5})->Args({0, 6})->Args({1, 0})->Args({2, 0})->Args({2, 1})->Args({2, 2})->Args({3, 0})
     ->UseRealTime()->Unit(benchmark::kMillisecond);
 
 }  // namespace

@@ -27,7 +27,7 @@ protected:
         exchange.set_radiance(radiance_, 1e9);
         for (int i = 0; i < directions; ++i) exchange.transfer(buffer, sample_bundle(static_cast<std::uint32_t>(i), 7));
         std::vector<Received> all(patches_.patch_count() + 1);
-        exchange.collect([&](std::uint32_t patch, const Received& r) { all[patch] = r; });
+        for (std::uint32_t p = 0; p < all.size(); ++p) all[p] = exchange.take(p);
         return all;
     }
 

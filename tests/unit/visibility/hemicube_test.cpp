@@ -94,7 +94,7 @@ TEST(Hemicube, AClosedBoxFillsTheHemisphere) {
     SceneBuilder builder;
     builder.box({0, 0, 0}, {1, 1, 1}, Facing::inwards);
     const Model model(builder, 3);
-    Hemicube hemicube(model.mesh, model.patches, 128);
+    Hemicube hemicube(model.mesh, model.patches, 512);  // dozens of pixels a patch
     Random random(3, 1);
     for (int i = 0; i < 12; ++i) {
         const glm::dvec3 n = uniform_direction((i + 0.5) / 12.0, random.next());
