@@ -38,7 +38,7 @@ Estimate form_factor(const SceneBuilder& builder, double area) {
 
 void expect_form_factor(const SceneBuilder& builder, double area, double expected) {
     const Estimate f = form_factor(builder, area);
-    EXPECT_NEAR(f.mean, expected, 4.0 * f.error);
+    EXPECT_NEAR(f.mean, expected, 3.0 * f.error);
     EXPECT_LT(f.error, 0.01 * expected);
 }
 

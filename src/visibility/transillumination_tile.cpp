@@ -1,0 +1,173 @@
+// Filling a tile: drawing its triangles, and sorting what was drawn by pixel and by depth.
+#include "visibility/transillumination_tile.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace transillum {
+
+namespace {
+
+/// A fragment keeps the upper 31 of the 63 bits of depth.
+constexpr std::uint64_t depth_bits = 0xffffffff00000000u;
+/// Planes of triangles that meet at an edge differ by this much there.
+constexpr double depth_rounding = 0x1p24;
+
+std::array<std::uint32_t, block> leaves_of_block(int level, float s0, float ds, float t0, float dt) {
+    std::array<std::uint32_t, block> leaves;
+    for (int i = 0; i < block; ++i)
+        leaves[i] = leaf_in_root(level, s0 + ds * static_cast<float>(i), t0 + dt * static_cast<float>(i));
+    return leaves;
+}
+
+}  // namespace
+
+/// Through the vertices in the order of their numbers: triangles on the same three vertices then have the same
+/// depths to the last bit.
+TransilluminationBuffer::Plane TransilluminationBuffer::depth_plane(std::uint32_t root) const {
+    std::array<std::uint32_t, 3> v = mesh_.triangles[root].vertices;
+    if (v[0] > v[1]) std::swap(v[0], v[1]);
+    if (v[1] > v[2]) std::swap(v[1], v[2]);
+    if (v[0] > v[1]) std::swap(v[0], v[1]);
+    const ProjectedVertex &a = projected_[v[0]], &b = projected_[v[1]], &c = projected_[v[2]];
+    const double bx = b.x - a.x, by = b.y - a.y, cx = c.x - a.x, cy = c.y - a.y;
+    const double scale = fixed_unit / (bx * cy - cx * by);
+    const double zb = b.depth - a.depth, zc = c.depth - a.depth;
+    return {a.x / fixed_unit, a.y / fixed_unit, a.depth, (zb * cy - zc * by) * scale, (zc * bx - zb * cx) * scale};
+}
+
+/// Barycentric coordinates of the second and third vertex, about the first.
+std::array<TransilluminationBuffer::Plane, 2> TransilluminationBuffer::barycentric_planes(const std::array<FixedPoint, 3>& v,
+                                                                                          std::int64_t twice_area) {
+    const double scale = fixed_unit / static_cast<double>(twice_area);
+    const double x = v[0].x / fixed_unit, y = v[0].y / fixed_unit;
+    return {Plane{x, y, 0.0, (v[2].y - v[0].y) * scale, (v[0].x - v[2].x) * scale},
+            Plane{x, y, 0.0, (v[0].y - v[1].y) * scale, (v[1].x - v[0].x) * scale}};
+}
+
+/// Do two triangles lie in one plane, up to the rounding of their vertices?
+bool TransilluminationBuffer::are_coplanar(std::uint32_t root_a, std::uint32_t root_b) const {
+    const glm::dvec3 normal = normal_of(mesh_, root_a);
+    const glm::dvec3& point = mesh_.positions[mesh_.triangles[root_a].vertices[0]];
+    for (const std::uint32_t v : mesh_.triangles[root_b].vertices)
+        if (std::abs(glm::dot(normal, mesh_.positions[v] - point)) > plane_tolerance_) return false;
+    return true;
+}
+
+/// The order of two fragments whose 31 bits of depth all but agree. Vertices were moved within the window, not in
+/// depth, so the depths of coinciding surfaces differ a little: there their keys decide, elsewhere their planes do.
+bool TransilluminationBuffer::is_behind(Fragment a, Fragment b, int x, int y) const {
+    const std::uint32_t root_a = patches_.root_of_leaf[leaf_of(a)], root_b = patches_.root_of_leaf[leaf_of(b)];
+    const double distance = depth_plane(root_a).at(x, y) - depth_plane(root_b).at(x, y);
+    if (std::abs(distance) <= depth_rounding || are_coplanar(root_a, root_b))
+        return static_cast<std::uint32_t>(a) > static_cast<std::uint32_t>(b);
+    return distance > 0.0;
+}
+
+/// Lists are short: insertion sort.
+void TransilluminationBuffer::sort_list(Fragment* begin, Fragment* end, int x, int y) const {
+    constexpr Fragment near = std::uint64_t{1} << (32 + 13);
+    bool any_near = false;
+    for (Fragment* i = begin + 1; i < end; ++i) {
+        const Fragment f = *i;
+        Fragment* j = i;
+        for (; j > begin && j[-1] > f; --j) *j = j[-1];
+        *j = f;
+    }
+    for (const Fragment* i = begin + 1; i < end; ++i) any_near |= i[0] - i[-1] < near;
+    if (!any_near) return;
+    for (Fragment* i = begin + 1; i < end; ++i)
+        for (Fragment* j = i; j > begin; --j) {
+            const Fragment gap = j[0] > j[-1] ? j[0] - j[-1] : j[-1] - j[0];
+            if (gap >= near || !is_behind(j[-1], j[0], x, y)) break;
+            std::swap(j[-1], j[0]);
+        }
+}
+
+// Without fused multiplication both versions give the same bits.
+#if defined(__x86_64__) && defined(__GNUC__)
+__attribute__((target_clones("avx2", "default")))
+#endif
+void TransilluminationBuffer::draw(std::uint32_t root, const TileRect& rect, Scratch& scratch) const {
+    const auto& vertices = mesh_.triangles[root].vertices;
+    std::array<const ProjectedVertex*, 3> p;
+    for (int i = 0; i < 3; ++i) p[i] = &projected_[vertices[i]];
+    std::array<FixedPoint, 3> fixed{{{p[0]->x, p[0]->y}, {p[1]->x, p[1]->y}, {p[2]->x, p[2]->y}}};
+    const std::int64_t area = twice_area(fixed[0], fixed[1], fixed[2]);
+    if (area == 0) return;
+
+    const Plane depth = depth_plane(root);
+
+    // The window's axes and the direction are right-handed: a positive area is seen from ahead.
+    const std::uint64_t facing = area > 0 ? 0x80000000u : 0u;
+    const RootPatches& patches = patches_.roots[root];
+    std::array<Plane, 2> b{};
+    if (patches.level > 0) b = barycentric_planes(fixed, area);
+    if (area < 0) std::swap(fixed[1], fixed[2]);
+    // A slope that does not fit belongs to a span of one pixel, where it is not used.
+    const auto dz = static_cast<std::uint64_t>(static_cast<std::int64_t>(std::clamp(depth.dx, -0x1p62, 0x1p62)));
+
+    const std::uint64_t low = facing | patches.first_leaf;
+    const auto ds = static_cast<float>(b[0].dx), dt = static_cast<float>(b[1].dx);
+
+    scratch.reserve();
+    Fragment* out = scratch.drawn.data() + scratch.count;
+    std::uint16_t* pixel = scratch.pixel.data() + scratch.count;
+    std::uint32_t* const lengths = scratch.first.data() + 1;
+    const int width = rect.x1 - rect.x0;
+    std::array<std::uint64_t, block> ramp;
+    for (int i = 0; i < block; ++i) ramp[i] = static_cast<std::uint64_t>(i) * dz;
+    scan_convert(fixed, rect, [&](std::int32_t y, std::int32_t x0, std::int32_t x1) __attribute__((always_inline)) {
+        int at = (y - rect.y0) * width + (x0 - rect.x0);
+        int length = x1 - x0;
+        auto z = static_cast<std::uint64_t>(std::clamp(depth.at(x0, y), 0.0, 0x1p63));
+        auto s0 = static_cast<float>(b[0].at(x0, y)), t0 = static_cast<float>(b[1].at(x0, y));
+        // Whole blocks, of which the next span overwrites what is too much: short spans would mispredict a loop's end.
+        for (; length > 0; length -= block) {
+            const std::array<std::uint32_t, block> leaf = patches.level == 0 ? std::array<std::uint32_t, block>{}
+                                                                             : leaves_of_block(patches.level, s0, ds, t0, dt);
+            for (int i = 0; i < block; ++i) out[i] = ((z + ramp[i]) & depth_bits) | (low + leaf[i]);
+            for (int i = 0; i < block; ++i) pixel[i] = static_cast<std::uint16_t>(at + i);
+            for (int i = 0; i < block; ++i) lengths[at + i] += i < length ? 1 : 0;
+            const int taken = std::min(length, block);
+            out += taken;
+            pixel += taken;
+            at += block;
+            z += block * dz;
+            s0 += block * ds;
+            t0 += block * dt;
+        }
+    });
+    scratch.count = static_cast<std::size_t>(out - scratch.drawn.data());
+}
+
+void TransilluminationBuffer::fill_tile(int tile, Scratch& scratch) const {
+    const int x0 = tile % tiles_x_ * tile_size, y0 = tile / tiles_x_ * tile_size;
+    scratch.rect = {x0, y0, std::min(x0 + tile_size, width_), std::min(y0 + tile_size, height_)};
+    const int pixels = (scratch.rect.x1 - x0) * (scratch.rect.y1 - y0);
+    std::fill_n(scratch.first.begin(), pixels + 1, 0u);
+    scratch.count = 0;
+    for (const Bins& bins : bins_)
+        for (const std::uint32_t root : bins[tile]) draw(root, scratch.rect, scratch);
+    if (scratch.count == 0) return;
+
+    // Counting sort by pixel. While filling, first[i] runs from the start of list i to its end, which is
+    // the start of list i + 1: shifting by one restores it.
+    auto& first = scratch.first;
+    std::partial_sum(first.begin(), first.begin() + pixels + 1, first.begin());
+    if (scratch.sorted.size() < scratch.count) scratch.sorted.resize(scratch.drawn.size());
+    Fragment* const sorted = scratch.sorted.data();
+    const Fragment* const drawn = scratch.drawn.data();
+    const std::uint16_t* const pixel = scratch.pixel.data();
+    std::uint32_t* const place = first.data();
+    for (std::size_t i = 0, count = scratch.count; i < count; ++i) sorted[place[pixel[i]]++] = drawn[i];
+    std::copy_backward(first.begin(), first.begin() + pixels, first.begin() + pixels + 1);
+    first[0] = 0;
+    const int width = scratch.rect.x1 - x0;
+    for (int i = 0; i < pixels; ++i)
+        if (first[i + 1] - first[i] > 1)
+            sort_list(sorted + first[i], sorted + first[i + 1], x0 + i % width, y0 + i / width);
+}
+
+}  // namespace transillum
