@@ -74,6 +74,8 @@ void print_summary(const Solution& s, const std::string& path) {
 int run(const BakeArguments& a, const Common& common) {
     Console console(common.quiet);
     if (!a.output.ends_with(".vtm")) throw UsageError("--output " + a.output + "; accepted: a name that ends in .vtm");
+    if (a.bake.resolution > 0 && a.bake.resolution < 16)
+        throw UsageError("--resolution " + std::to_string(a.bake.resolution) + "; accepted: 0 or 16 to 8192");
     require_writable(a.output);
     const Workers workers(a.threads);
     const Scene scene = read_scene(a.scene, console);

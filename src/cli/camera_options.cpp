@@ -17,6 +17,11 @@ glm::dvec3 point(const std::vector<double>& v) {
     return {v[0], v[1], v[2]};
 }
 
+double checked_fov(double degrees) {
+    if (degrees > 0.0 && degrees < 180.0) return degrees;
+    throw UsageError("--fov " + std::to_string(degrees) + "; accepted: between 0 and 180 degrees");
+}
+
 }  // namespace
 
 void add_camera_options(CLI::App& command, CameraOptions& options) {
@@ -27,12 +32,13 @@ void add_camera_options(CLI::App& command, CameraOptions& options) {
     vector("--eye", options.eye, "where the eye is; with --look-at instead of --camera");
     vector("--look-at", options.look_at, "a point in the middle of the picture");
     vector("--up", options.up, "upwards in the picture (default: 0,1,0)");
-    command.add_option("--fov", options.vertical_fov, "vertical field of view [degrees]")->capture_default_str()->group("Camera");
+    command.add_option("--fov", options.vertical_fov, "vertical field of view [degrees] (default: the camera's own, else 45)")->group("Camera");
     command.add_option("--size", options.size, "pixels")->type_name("WxH")->capture_default_str()->group("Camera");
 }
 
 void add_image_options(CLI::App& command, ImageOptions& options) {
     command.add_option("-o,--output", options.paths, "picture: .exr linear, .png tone-mapped; may be given more than once")
+        ->allow_extra_args(false)
         ->required()->group("Output");
     command.add_option("--exposure", options.tone.exposure, "brighten the PNG by so many stops")->check(within(-100.0, 100.0))->capture_default_str()->group("Output");
     command.add_flag("!--no-auto-exposure", options.tone.automatic, "a radiance of 1 is white (default: middle grey is the median)")
@@ -50,7 +56,9 @@ void require_writable(const ImageOptions& options) {
 Camera make_camera(const CameraOptions& options, const std::vector<Camera>& cameras, const SurfaceMesh& surface) {
     if (options.eye.empty() && options.look_at.empty()) {
         if (!options.up.empty()) throw UsageError("--up: needs --eye and --look-at");
-        return choose_camera(cameras, surface, options.name);
+        Camera camera = choose_camera(cameras, surface, options.name);
+        if (options.vertical_fov != 0.0) camera.vertical_fov = checked_fov(options.vertical_fov);
+        return camera;
     }
     if (!options.name.empty()) throw UsageError("--camera " + options.name + ": not together with --eye and --look-at");
     if (options.eye.empty() || options.look_at.empty()) throw UsageError("--eye and --look-at: each needs the other");
@@ -58,9 +66,7 @@ Camera make_camera(const CameraOptions& options, const std::vector<Camera>& came
     camera.eye = point(options.eye);
     camera.look_at = point(options.look_at);
     if (!options.up.empty()) camera.up = point(options.up);
-    camera.vertical_fov = options.vertical_fov;
-    if (!(camera.vertical_fov > 0.0 && camera.vertical_fov < 180.0))
-        throw UsageError("--fov " + std::to_string(camera.vertical_fov) + "; accepted: between 0 and 180 degrees");
+    if (options.vertical_fov != 0.0) camera.vertical_fov = checked_fov(options.vertical_fov);
     if (glm::length(glm::cross(camera.look_at - camera.eye, camera.up)) == 0.0)
         throw UsageError("--up: parallel to the view from --eye to --look-at, or these are one point; accepted: another direction");
     return camera;

@@ -14,7 +14,7 @@ namespace transillum::cli {
 struct CameraOptions {
     std::string name;
     std::vector<double> eye, look_at, up;  ///< three numbers, or none
-    double vertical_fov = 45.0;
+    double vertical_fov = 0.0;  ///< 0: the camera's own
     std::string size = "500x500";
 };
 

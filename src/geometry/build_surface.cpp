@@ -27,9 +27,19 @@ struct PositionHash {
     }
 };
 
-int grid_exponent(const Scene& scene) {
+/// Vertices without a polygon would only widen the grid and the window.
+std::vector<bool> used_positions(const Scene& scene) {
+    std::vector<bool> used(scene.positions.size());
+    for (const Polygon& polygon : scene.polygons)
+        for (std::uint32_t c = 0; c < polygon.corner_count; ++c)
+            used[scene.corners[polygon.first_corner + c]] = true;
+    return used;
+}
+
+int grid_exponent(const Scene& scene, const std::vector<bool>& used) {
     double largest = 0.0;
     for (const glm::dvec3& p : scene.positions) {
+        if (!used[static_cast<std::size_t>(&p - scene.positions.data())]) continue;
         if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
             throw InputError(scene.path, "vertex " + std::to_string(&p - scene.positions.data()) +
                                              " has a coordinate that is no finite number; accepted: finite ones");
@@ -49,18 +59,26 @@ glm::dvec3 snap(const glm::dvec3& p, int exponent) {
 /// Snaps and merges; returns the new index of every old position.
 std::vector<std::uint32_t> weld(const Scene& scene, SurfaceMesh& mesh, SurfaceReport& report) {
     const std::vector<glm::dvec3>& positions = scene.positions;
-    mesh.grid.exponent = grid_exponent(scene);
+    const std::vector<bool> used = used_positions(scene);
+    mesh.grid.exponent = grid_exponent(scene, used);
     std::unordered_map<glm::dvec3, std::uint32_t, PositionHash> index;
     std::vector<std::uint32_t> renumbered;
     renumbered.reserve(positions.size());
-    for (const glm::dvec3& p : positions) {
+    std::size_t met = 0;
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+        if (!used[i]) {
+            renumbered.push_back(0);
+            continue;
+        }
+        ++met;
+        const glm::dvec3& p = positions[i];
         const glm::dvec3 s = snap(p, mesh.grid.exponent);
         mesh.grid.largest_move = std::max(mesh.grid.largest_move, glm::length(s - p));
         const auto [at, is_new] = index.try_emplace(s, static_cast<std::uint32_t>(mesh.positions.size()));
         if (is_new) mesh.positions.push_back(s);
         renumbered.push_back(at->second);
     }
-    report.welded = positions.size() - mesh.positions.size();
+    report.welded = met - mesh.positions.size();
     return renumbered;
 }
 
@@ -100,6 +118,22 @@ void add_polygon(const Scene& scene, const Polygon& polygon, const std::vector<s
     }
 }
 
+/// Drops vertices whose triangles were all left out.
+void drop_unused_vertices(SurfaceMesh& mesh) {
+    constexpr std::uint32_t unused = 0xffffffffu;
+    std::vector<std::uint32_t> renumbered(mesh.positions.size(), unused);
+    std::vector<glm::dvec3> kept;
+    for (RootTriangle& t : mesh.triangles)
+        for (std::uint32_t& v : t.vertices) {
+            if (renumbered[v] == unused) {
+                renumbered[v] = static_cast<std::uint32_t>(kept.size());
+                kept.push_back(mesh.positions[v]);
+            }
+            v = renumbered[v];
+        }
+    mesh.positions = std::move(kept);
+}
+
 void tell(const Scene& scene, const SurfaceReport& report, Monitor& monitor) {
     if (report.degenerate > 0)
         monitor.note(scene.path + ": left out " + std::to_string(report.degenerate) + " triangles without area");
@@ -124,6 +158,7 @@ SurfaceMesh build_surface(const Scene& scene, const SurfaceOptions& options, Mon
     counts.triangles = mesh.triangles.size();
     if (mesh.triangles.empty())
         throw InputError(scene.path, "no triangle with an area; accepted: at least one");
+    drop_unused_vertices(mesh);
     find_fans(mesh, options.crease_angle, counts);
     tell(scene, counts, monitor);
     if (report) *report = counts;

@@ -178,6 +178,7 @@ Solution bake(const Scene& scene, const BakeOptions& options, const Workers& wor
     decide_first_shot(luminaires, light.first_shot, s.decisions);
     s.direct = shoot_direct_light(s.surface, s.patches, luminaires, options.hemicube_resolution, workers, monitor);
     s.direct_irradiance = direct_irradiance(s.direct, s.patches.patch_count());
+    s.interrupted = monitor.stop_requested();
     watch.lap("first shot");
 
     IterationOptions iteration = options.iteration;
@@ -201,7 +202,7 @@ Solution bake(const Scene& scene, const BakeOptions& options, const Workers& wor
         s.standard_error[p] *= sources.albedo[p] / static_cast<float>(std::numbers::pi);
     s.iterations = transport.iterations;
     s.relative_error = transport.relative_error;
-    s.interrupted = monitor.stop_requested();
+    s.interrupted = s.interrupted || transport.interrupted;
     s.balance = measure_balance(s, transport.escaped);
     note_decisions(s, monitor);
     if (run) run->threads = workers.count();

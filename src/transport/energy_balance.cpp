@@ -2,11 +2,18 @@
 
 #include <transillum/base/error.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace transillum {
 
 namespace {
+
+/// A cluster met less often is left as it is: shares of so few fragments say nothing.
+constexpr double least_fragments = 64.0;
+/// No balance scales by more than this at once.
+constexpr double largest_factor = 32.0;
 
 /// Means over a cluster's patches, weighted with their coverage.
 struct ClusterState {
@@ -99,13 +106,17 @@ std::vector<double> solve_channel(const std::vector<ClusterState>& states, const
 void balance_energy(FiniteElementComponent& component, const Clusters& clusters, const ClusterTransfer& transfer,
                     BalanceShape shape) {
     const std::vector<ClusterState> states = measure_clusters(component, clusters);
+    std::vector<double> fragments(clusters.count);
+    for (std::uint32_t j = 0; j < clusters.count; ++j)
+        for (std::uint32_t i = 0; i <= clusters.count; ++i) fragments[j] += transfer.at(i, j).coverage;
     std::vector<SpectrumSum> target(clusters.count), factor(clusters.count, SpectrumSum(1.0));
     for (int channel = 0; channel < channel_count; ++channel) {
         const std::vector<double> incoming = solve_channel(states, transfer, shape, channel);
         for (std::uint32_t i = 0; i < clusters.count; ++i) {
             target[i][channel] = incoming[i];
+            if (fragments[i] < least_fragments) continue;
             const double now = states[i].coverage > 0.0 ? states[i].incoming[channel] / states[i].coverage : 0.0;
-            if (now > 0.0 && incoming[i] > 0.0) factor[i][channel] = incoming[i] / now;
+            if (now > 0.0 && incoming[i] > 0.0) factor[i][channel] = std::clamp(incoming[i] / now, 1.0 / largest_factor, largest_factor);
         }
     }
     for (std::uint32_t p = 0; p < component.patch_count(); ++p) {
@@ -114,6 +125,7 @@ void balance_energy(FiniteElementComponent& component, const Clusters& clusters,
             component.scale_incoming(p, factor[i]);
             continue;
         }
+        if (fragments[i] < least_fragments) continue;
         // What no light has reached stays dark: it may be sealed off from the rest of its cluster.
         const SpectrumSum reached(glm::greaterThan(component.incoming(p), SpectrumSum(0.0)));
         component.set_incoming(p, reached * target[i]);

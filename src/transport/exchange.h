@@ -35,6 +35,13 @@ struct Received {
 struct ClusterTransfer {
     explicit ClusterTransfer(std::uint32_t cluster_count)
         : count(cluster_count), entries(std::size_t{cluster_count + 1} * cluster_count) {}
+    ClusterTransfer& operator+=(const ClusterTransfer& other) {
+        for (std::size_t i = 0; i < entries.size(); ++i) {
+            entries[i].radiance += other.entries[i].radiance;
+            entries[i].coverage += other.entries[i].coverage;
+        }
+        return *this;
+    }
     std::uint32_t count;
     std::vector<Received> entries;
     [[nodiscard]] Received& at(std::uint32_t receiver, std::uint32_t sender) { return entries[std::size_t{receiver} * count + sender]; }

@@ -40,6 +40,8 @@ void FiniteElementComponent::average_in(Exchange& exchange, std::uint64_t direct
 }
 
 void FiniteElementComponent::restart() {
+    earlier_ = sums_;
+    earlier_blocks_ = blocks_;
     for (PatchSums& s : sums_) {
         if (s.coverage == 0.0) continue;
         PatchSums start;
@@ -51,6 +53,25 @@ void FiniteElementComponent::restart() {
     escaped_ = SpectrumSum(0.0);
     weights_ = 0.0;
     blocks_ = 0;
+}
+
+void FiniteElementComponent::recall() {
+    for (std::size_t p = 0; p < earlier_.size(); ++p) {
+        PatchSums& s = sums_[p];
+        const PatchSums& e = earlier_[p];
+        s.received += e.received;
+        s.coverage += e.coverage;
+        s.received_squared += e.received_squared;
+        s.received_coverage += e.received_coverage;
+        s.coverage_squared += e.coverage_squared;
+    }
+    blocks_ = earlier_blocks_ > 0 ? blocks_ + earlier_blocks_ : 0;
+    forget();
+}
+
+void FiniteElementComponent::forget() {
+    earlier_.clear();
+    earlier_.shrink_to_fit();
 }
 
 SpectrumSum FiniteElementComponent::incoming(std::uint32_t patch) const {

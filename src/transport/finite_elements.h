@@ -31,8 +31,14 @@ public:
 
     /// Takes a block of directions. \param weight of each of its directions in the average.
     void average_in(Exchange& exchange, std::uint64_t directions, double weight);
-    /// Forgets what was summed, keeping the estimate as its start, with next to no weight.
+    /// Sets what was summed aside, keeping the estimate as the start of a new average, with next to no weight.
     void restart();
+    /// Adds what the last restart set aside: a run that ends soon after cannot do without it.
+    void recall();
+    /// Lets go of what the last restart set aside.
+    void forget();
+    /// Says that the spread of the blocks so far tells nothing of the error.
+    void forget_error() { blocks_ = 0; }
 
     /// Mean radiance that arrives at a patch, cosine-weighted; 0 where nothing is known.
     [[nodiscard]] SpectrumSum incoming(std::uint32_t patch) const;
@@ -59,6 +65,8 @@ private:
     SpectrumSum escaped_{0.0};
     double weights_ = 0.0;
     int blocks_ = 0;
+    std::vector<PatchSums> earlier_;  ///< set aside by the last restart
+    int earlier_blocks_ = 0;
 };
 
 }  // namespace transillum

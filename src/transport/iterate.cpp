@@ -16,7 +16,10 @@
 #include <bit>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <string>
+#include <utility>
 
 namespace transillum {
 
@@ -25,11 +28,13 @@ namespace {
 constexpr std::uint64_t first_balance = 8;
 /// Up to here every phase starts its average anew: what was summed came from too early an estimate.
 constexpr std::uint64_t last_restart = 64;
+/// Longer blocks would leave the fixed-point sums too few bits.
+constexpr std::uint64_t longest_block = 1024;
 
 /// Directions until the estimate is refreshed: one at a time up to 8, then four blocks an octave.
 std::uint64_t block_length(std::uint64_t done, Averaging averaging) {
     if (averaging == Averaging::paper || done < first_balance) return 1;
-    return std::bit_floor(done) / 4;
+    return std::min(std::bit_floor(done) / 4, longest_block);
 }
 
 class Iteration {
@@ -44,11 +49,11 @@ public:
           buffer_(mesh, patches, options.pixel_size),
           clusters_(options.averaging == Averaging::balanced ? make_clusters(mesh, patches) : Clusters{}),
           transfer_(clusters_.count),
+          earlier_transfer_(clusters_.count),
           exchange_(patches.leaf_count, clusters_, workers),
           component_(sources, workers) {
         for (std::uint32_t r = 0; r < mesh.triangles.size(); ++r) {
             leaf_area_.push_back(leaf_area(mesh, patches, r));
-            total_area_ += 2.0 * area_of(mesh, r);
         }
     }
 
@@ -88,6 +93,7 @@ private:
     void begin_block() {
         if (!balances_at(done_) || done_ > last_restart) return;
         component_.restart();
+        earlier_transfer_ = std::move(transfer_);
         transfer_ = ClusterTransfer(clusters_.count);
     }
 
@@ -98,6 +104,7 @@ private:
         component_.average_in(exchange_, directions, balanced ? static_cast<double>(done_) : 1.0);
         if (balanced) exchange_.collect(transfer_);
         if (balances_at(done_)) balance();
+        if (done_ >= 2 * last_restart) forget();
         if (done_ > last_restart) relative_error_ = estimate_error();
     }
 
@@ -105,15 +112,26 @@ private:
         return options_.averaging == Averaging::balanced && done >= first_balance && std::has_single_bit(done);
     }
 
+    void recall() {
+        component_.recall();
+        transfer_ += earlier_transfer_;
+    }
+
+    void forget() {
+        component_.forget();
+        earlier_transfer_ = ClusterTransfer(clusters_.count);
+    }
+
     void balance() {
         balance_energy(component_, clusters_, transfer_,
                        done_ == first_balance ? BalanceShape::flat : BalanceShape::kept);
+        if (done_ == first_balance) component_.forget_error();
     }
 
     /// Root mean square error over the mean, both weighted with area, of the luminance.
     double estimate_error() const {
         struct Sums {
-            double variance = 0.0, mean = 0.0;
+            double variance = 0.0, mean = 0.0, seen = 0.0, unseen = 0.0;
         };
         constexpr std::uint32_t range = 1 << 14;  // fixed, so that sums don't depend on the threads
         std::vector<Sums> partial(component_.patch_count() / range + 1);
@@ -121,8 +139,10 @@ private:
             for (std::size_t r = begin; r < end; ++r) {
                 const auto first = static_cast<std::uint32_t>(r * range);
                 for (std::uint32_t p = first; p < std::min(first + range, component_.patch_count()); ++p) {
-                    if (component_.coverage(p) == 0.0) continue;
                     const double area = area_of_patch(p);
+                    const bool seen = component_.coverage(p) > 0.0;
+                    (seen ? partial[r].seen : partial[r].unseen) += area;
+                    if (!seen) continue;
                     partial[r].mean += area * luminance(component_.incoming(p));
                     partial[r].variance += area * luminance(component_.incoming_variance(p));
                 }
@@ -132,8 +152,14 @@ private:
         for (const Sums& s : partial) {
             all.mean += s.mean;
             all.variance += s.variance;
+            all.seen += s.seen;
+            all.unseen += s.unseen;
         }
-        return all.mean > 0.0 ? std::sqrt(all.variance * total_area_) / all.mean : 0.0;
+        if (all.seen == 0.0) return std::numeric_limits<double>::quiet_NaN();
+        if (all.mean == 0.0) return 0.0;
+        // Of a patch that no direction has met nothing is known: an error as large as the mean.
+        const double mean = all.mean / all.seen;
+        return std::sqrt((all.variance + all.unseen * mean * mean) / (all.seen + all.unseen)) / mean;
     }
 
     double area_of_patch(std::uint32_t patch) const {
@@ -148,7 +174,9 @@ private:
     }
 
     TransportResult finish() {
-        // Between powers of two the last directions are not in balance yet.
+        // Within the phase after a restart there is too little to do without what came before; and between powers of two
+        // the last directions are not in balance yet.
+        if (!balances_at(done_)) recall();
         if (options_.averaging == Averaging::balanced && done_ > first_balance && !balances_at(done_)) balance();
         TransportResult result;
         const std::uint32_t n = component_.patch_count();
@@ -180,11 +208,10 @@ private:
     Monitor& monitor_;
     TransilluminationBuffer buffer_;
     Clusters clusters_;
-    ClusterTransfer transfer_;
+    ClusterTransfer transfer_, earlier_transfer_;
     Exchange exchange_;
     FiniteElementComponent component_;
     std::vector<double> leaf_area_;  ///< one a root
-    double total_area_ = 0.0;        ///< of both sides
     std::uint64_t done_ = 0;
     double relative_error_ = std::numeric_limits<double>::quiet_NaN();
     bool interrupted_ = false;
@@ -195,6 +222,8 @@ private:
 
 TransportResult iterate(const SurfaceMesh& mesh, const PatchHierarchy& patches, const PatchSources& sources,
                         const IterationOptions& options, const Workers& workers, Monitor& monitor) {
+    if (options.iterations > std::numeric_limits<std::uint32_t>::max())
+        throw UsageError("iterations " + std::to_string(options.iterations) + "; accepted: below 2^32");
     return Iteration(mesh, patches, sources, options, workers, monitor).run();
 }
 

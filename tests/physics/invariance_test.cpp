@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 namespace {
 
@@ -56,6 +57,53 @@ TEST(Invariance, ADuplicatedFaceDoesNotDoubleTheFlux) {
     scene.polygons.push_back(scene.polygons[0]);
     const TransportRun run = run_transport(scene, {.directions = 1024});
     EXPECT_NEAR(run.mean_incoming(all_fronts) * 6.0 * 0.4, 1.0, 1e-3);
+}
+
+/// Root mean square deviation of the fronts from a long run.
+double deviation(const TransportRun& run, const TransportRun& exact) {
+    double sum = 0.0;
+    for (std::uint32_t p = 0; p < run.patches.leaf_count; ++p)
+        sum += std::pow(run.result.irradiance[p].x - exact.result.irradiance[p].x, 2);
+    return std::sqrt(sum / run.patches.leaf_count);
+}
+
+// The average is begun anew at 8, 16, 32 and 64 directions: a run that ends soon after must not suffer.
+TEST(Iterations, OneMoreDoesNoHarm) {
+    const TransportRun exact = run_transport(lit_cube(), {.directions = 4096, .leaves = 200});
+    for (const std::uint64_t m : {8, 16, 32, 64, 128}) {
+        const double at = deviation(run_transport(lit_cube(), {.directions = m, .leaves = 200}), exact);
+        const double after = deviation(run_transport(lit_cube(), {.directions = m + 1, .leaves = 200}), exact);
+        // A single direction beyond a net weighs 2 / (m + 1) and may deviate by as much as the mean.
+        EXPECT_LT(after, 1.5 * at) << m;
+    }
+}
+
+TEST(Invariance, StrayVerticesChangeNothing) {
+    Scene scene = lit_cube();
+    const TransportRun plain = run_transport(scene, {.directions = 64, .leaves = 200});
+    scene.positions.emplace_back(1e4, 1e4, 1e4);
+    // And those of a triangle without area.
+    for (int i = 0; i < 3; ++i) {
+        scene.corners.push_back(static_cast<std::uint32_t>(scene.positions.size()));
+        scene.positions.emplace_back(-1e4, i == 2 ? 1.0 : 0.0, 0.0);
+    }
+    scene.corners.back() = scene.corners[scene.corners.size() - 2];
+    scene.polygons.push_back({static_cast<std::uint32_t>(scene.corners.size() - 3), 3, 0, 0, 6});
+    const TransportRun strayed = run_transport(scene, {.directions = 64, .leaves = 200});
+    EXPECT_EQ(plain.result.coverage.size(), strayed.result.coverage.size());
+    EXPECT_NEAR(plain.mean_incoming(all_fronts), strayed.mean_incoming(all_fronts), 1e-6);
+    EXPECT_LT(strayed.result.relative_error, 1.01);
+}
+
+// A ground far larger than the rest of the scene: patches that no direction met are not taken for exact.
+TEST(StandardError, CountsPatchesNeverMetAsUnknown) {
+    SceneBuilder b;
+    b.box({0, 0, 0}, {1, 1, 1}, Facing::inwards, b.material(Spectrum(0.5f), Spectrum(1.0f)));
+    b.polygon({{-1e5, -1e5, -1}, {1e5, -1e5, -1}, {1e5, 1e5, -1}, {-1e5, 1e5, -1}}, b.material(Spectrum(0.5f)));
+    const TransportRun run = run_transport(b.scene, {.directions = 128, .leaves = 100});
+    double largest = 0.0;
+    for (std::uint32_t p = 0; p < run.patches.leaf_count; ++p) largest = std::max<double>(largest, run.result.irradiance[p].x);
+    EXPECT_LT(largest, 10.0 * std::numbers::pi) << "the balance blew up";
 }
 
 TEST(StandardError, CoversTheSpreadOfScrambledReplicates) {

@@ -48,7 +48,7 @@ struct SurfaceOptions {
 struct SurfaceReport {
     std::uint64_t polygons = 0, triangles = 0;
     std::uint64_t degenerate = 0;   ///< triangles without area, dropped
-    std::uint64_t duplicate = 0;    ///< triangles on the same three vertices as an earlier one, dropped
+    std::uint64_t duplicate = 0;    ///< triangles on the same three vertices as an earlier one, wound alike, dropped
     std::uint64_t welded = 0;       ///< vertices merged with one at the same place
     std::uint64_t border_edges = 0, nonmanifold_edges = 0, crease_edges = 0;
 };

@@ -41,7 +41,7 @@ struct Solution {
 
     std::uint64_t iterations = 0;               ///< directions transferred, each both ways
     std::uint64_t seed = 0;
-    double relative_error = 0.0;                ///< estimated, area-weighted mean of standard_error over mean radiance
+    double relative_error = 0.0;                ///< estimated: root of the area-weighted mean squared error of the indirect irradiance, over its mean
     bool interrupted = false;                   ///< stopped by the user before any criterion was met
     EnergyBalance balance;
     std::vector<Decision> decisions;            ///< what was skipped or chosen, with the reason

@@ -19,8 +19,8 @@
 
 namespace transillum {
 
-/// A surface point behind a pixel: from the high bit, its depth along the direction (32 bits, ordered as an
-/// unsigned number), 1 if its front faces forwards, along the direction, and its leaf (31 bits).
+/// A surface point behind a pixel: from the high bit, its depth along the direction (31 bits below a zero,
+/// ordered as an unsigned number), 1 if its front faces forwards, along the direction, and its leaf (31 bits).
 /// Ascending order is order of depth; where two surfaces coincide, a front that faces backwards comes first.
 using Fragment = std::uint64_t;
 
