@@ -25,7 +25,8 @@ struct Workers::Arena {
 
 Workers::Workers(int threads) {
     if (threads < 0 || threads > 1024)
-        throw UsageError("threads: " + std::to_string(threads) + "; accepted: 0 (as many as the machine has) to 1024");
+        throw UsageError("threads: " + std::to_string(threads) +
+                         "; accepted: 0 (as many as the machine has) to 1024");
     if (threads == 0) threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
     arena_ = std::make_unique<Arena>(threads);
 }
@@ -42,11 +43,12 @@ void Workers::for_ranges(std::size_t n, std::size_t grain,
                          const std::function<void(std::size_t, std::size_t, int)>& body) const {
     if (n == 0) return;
     arena_->arena.execute([&] {
-        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, std::max<std::size_t>(grain, 1)),
-                          [&](const tbb::blocked_range<std::size_t>& r) {
-                              body(r.begin(), r.end(), tbb::this_task_arena::current_thread_index());
-                          },
-                          tbb::simple_partitioner());
+        tbb::parallel_for(
+            tbb::blocked_range<std::size_t>(0, n, std::max<std::size_t>(grain, 1)),
+            [&](const tbb::blocked_range<std::size_t>& r) {
+                body(r.begin(), r.end(), tbb::this_task_arena::current_thread_index());
+            },
+            tbb::simple_partitioner());
     });
 }
 

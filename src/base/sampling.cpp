@@ -77,7 +77,8 @@ double sobol_owen(std::uint32_t index, int dimension, std::uint64_t seed) {
     std::uint32_t x = 0;
     for (int i = 0; index != 0; index >>= 1, ++i)
         if (index & 1u) x ^= all_direction_numbers[dimension][i];
-    const std::uint64_t key = hash_bits(seed ^ hash_bits(static_cast<std::uint64_t>(dimension) + 1));
+    const std::uint64_t key =
+        hash_bits(seed ^ hash_bits(static_cast<std::uint64_t>(dimension) + 1));
     return (owen_scramble(x, key) + 0.5) * 0x1p-32;
 }
 
@@ -97,9 +98,9 @@ glm::dvec3 cosine_direction(double u, double v) {
 glm::dmat3 frame_about(const glm::dvec3& n) {
     // Branch on the smallest component: the cross product is then never short.
     const glm::dvec3 a = glm::abs(n);
-    const glm::dvec3 helper = a.x <= a.y && a.x <= a.z   ? glm::dvec3(1, 0, 0)
-                              : a.y <= a.z ? glm::dvec3(0, 1, 0)
-                                           : glm::dvec3(0, 0, 1);
+    const glm::dvec3 helper = a.x <= a.y && a.x <= a.z ? glm::dvec3(1, 0, 0)
+                              : a.y <= a.z             ? glm::dvec3(0, 1, 0)
+                                                       : glm::dvec3(0, 0, 1);
     const glm::dvec3 u = glm::normalize(glm::cross(helper, n));
     return {u, glm::cross(n, u), n};
 }

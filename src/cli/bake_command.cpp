@@ -26,56 +26,106 @@ struct BakeArguments {
 
 void add_options(CLI::App& command, BakeArguments& a) {
     add_scene_options(command, a.scene);
-    command.add_option("-o,--output", a.output, "solution to write, NAME.vtm (and a folder NAME)")->required()->group("Output");
+    command.add_option("-o,--output", a.output, "solution to write, NAME.vtm (and a folder NAME)")
+        ->required()
+        ->group("Output");
 
     auto& iteration = a.bake.iteration;
     const char* const stopping = "Stopping (whichever comes first)";
-    command.add_option("--iterations", iteration.iterations, "directions, each transferred both ways; best a power of two")
-        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 31))->capture_default_str()->group(stopping);
-    command.add_option("--target-error", iteration.target_error, "estimated relative error, as 0.01; 0: none")
-        ->check(within(0.0, 1.0))->capture_default_str()->group(stopping);
+    command
+        .add_option("--iterations", iteration.iterations,
+                    "directions, each transferred both ways; best a power of two")
+        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 31))
+        ->capture_default_str()
+        ->group(stopping);
+    command
+        .add_option("--target-error", iteration.target_error,
+                    "estimated relative error, as 0.01; 0: none")
+        ->check(within(0.0, 1.0))
+        ->capture_default_str()
+        ->group(stopping);
     command.add_option("--time", iteration.seconds, "seconds of transport; 0: no limit")
-        ->check(not_negative())->capture_default_str()->group(stopping);
+        ->check(not_negative())
+        ->capture_default_str()
+        ->group(stopping);
 
     const char* const patches = "Patches";
-    command.add_option("--leaves", a.bake.subdivision.leaf_target, "about so many leaf patches; 0: 30000 more than triangles")
-        ->check(CLI::Range(0u, 1u << 28))->capture_default_str()->group(patches);
-    command.add_option("--patch-size", a.bake.subdivision.patch_size, "longest edge of a leaf [scene units], instead of --leaves")
-        ->check(not_negative())->capture_default_str()->group(patches);
-    command.add_option("--max-level", a.bake.subdivision.max_level, "most subdivisions of a triangle")
-        ->check(CLI::Range(0, max_subdivision_level))->capture_default_str()->group(patches);
-    command.add_option("--crease-angle", a.bake.surface.crease_angle, "sharper edges are not shaded across [degrees]")
-        ->check(within(0.0, 180.0))->capture_default_str()->group(patches);
+    command
+        .add_option("--leaves", a.bake.subdivision.leaf_target,
+                    "about so many leaf patches; 0: 30000 more than triangles")
+        ->check(CLI::Range(0u, 1u << 28))
+        ->capture_default_str()
+        ->group(patches);
+    command
+        .add_option("--patch-size", a.bake.subdivision.patch_size,
+                    "longest edge of a leaf [scene units], instead of --leaves")
+        ->check(not_negative())
+        ->capture_default_str()
+        ->group(patches);
+    command
+        .add_option("--max-level", a.bake.subdivision.max_level, "most subdivisions of a triangle")
+        ->check(CLI::Range(0, max_subdivision_level))
+        ->capture_default_str()
+        ->group(patches);
+    command
+        .add_option("--crease-angle", a.bake.surface.crease_angle,
+                    "sharper edges are not shaded across [degrees]")
+        ->check(within(0.0, 180.0))
+        ->capture_default_str()
+        ->group(patches);
 
     const char* const method = "Method";
     add_choice(command, "--first-shot", a.bake.light.first_shot,
-               {{"auto", FirstShot::automatic}, {"off", FirstShot::off}, {"hemicube", FirstShot::hemicube}},
-               "direct light of small luminaires by light samples")->group(method);
-    command.add_option("--light-samples", a.bake.light.samples, "a luminaire; 0: 4 to 64, by how many luminaires there are")
-        ->check(CLI::Range(0, 4096))->capture_default_str()->group(method);
+               {{"auto", FirstShot::automatic},
+                {"off", FirstShot::off},
+                {"hemicube", FirstShot::hemicube}},
+               "direct light of small luminaires by light samples")
+        ->group(method);
+    command
+        .add_option("--light-samples", a.bake.light.samples,
+                    "a luminaire; 0: 4 to 64, by how many luminaires there are")
+        ->check(CLI::Range(0, 4096))
+        ->capture_default_str()
+        ->group(method);
     command.add_option("--hemicube", a.bake.hemicube_resolution, "pixels along its edge, even")
-        ->check(CLI::Range(16, 4096))->capture_default_str()->group(method);
-    command.add_option("--resolution", a.bake.resolution, "pixels across the transillumination buffer; 0: three a leaf's edge")
-        ->check(CLI::Range(0, 8192))->capture_default_str()->group(method);
+        ->check(CLI::Range(16, 4096))
+        ->capture_default_str()
+        ->group(method);
+    command
+        .add_option("--resolution", a.bake.resolution,
+                    "pixels across the transillumination buffer; 0: three a leaf's edge")
+        ->check(CLI::Range(0, 8192))
+        ->capture_default_str()
+        ->group(method);
     add_choice(command, "--averaging", iteration.averaging,
                {{"balanced", Averaging::balanced}, {"paper", Averaging::paper}},
-               "how iterations are averaged; paper: 1/m, for comparison")->group(method);
-    command.add_option("--seed", a.bake.seed, "of the directions and light samples")->capture_default_str()->group(method);
-    command.add_option("--threads", a.threads, "0: as many as the machine has; the result does not depend on it")
-        ->capture_default_str()->group(method);
+               "how iterations are averaged; paper: 1/m, for comparison")
+        ->group(method);
+    command.add_option("--seed", a.bake.seed, "of the directions and light samples")
+        ->capture_default_str()
+        ->group(method);
+    command
+        .add_option("--threads", a.threads,
+                    "0: as many as the machine has; the result does not depend on it")
+        ->capture_default_str()
+        ->group(method);
 }
 
 void print_summary(const Solution& s, const std::string& path) {
-    fmt::print("{}: {} triangles, {} patches, {} light samples, {} iterations, estimated error {:.2f} %{}\n", path,
-               s.surface.triangles.size(), s.patches.patch_count(), s.direct.samples.size(), s.iterations,
-               100.0 * s.relative_error, s.interrupted ? ", interrupted" : "");
+    fmt::print(
+        "{}: {} triangles, {} patches, {} light samples, {} iterations, estimated error {:.2f} "
+        "%{}\n",
+        path, s.surface.triangles.size(), s.patches.patch_count(), s.direct.samples.size(),
+        s.iterations, 100.0 * s.relative_error, s.interrupted ? ", interrupted" : "");
 }
 
 int run(const BakeArguments& a, const Common& common) {
     Console console(common.quiet);
-    if (!a.output.ends_with(".vtm")) throw UsageError("--output " + a.output + "; accepted: a name that ends in .vtm");
+    if (!a.output.ends_with(".vtm"))
+        throw UsageError("--output " + a.output + "; accepted: a name that ends in .vtm");
     if (a.bake.resolution > 0 && a.bake.resolution < 16)
-        throw UsageError("--resolution " + std::to_string(a.bake.resolution) + "; accepted: 0 or 16 to 8192");
+        throw UsageError("--resolution " + std::to_string(a.bake.resolution) +
+                         "; accepted: 0 or 16 to 8192");
     require_writable(a.output);
     const Workers workers(a.threads);
     const Scene scene = read_scene(a.scene, console);
@@ -87,8 +137,9 @@ int run(const BakeArguments& a, const Common& common) {
     solution.settings.emplace_back("sides", sides[static_cast<int>(a.scene.load.sides)]);
     const SpectrumSum lost = solution.balance.black_backs;
     if (luminance(lost) > most_lost * luminance(solution.balance.emitted))
-        console.warn(fmt::format("{:.1f} % of the light met black backs: is the mesh wound inside out? (--sides two)",
-                                 100.0 * luminance(lost) / luminance(solution.balance.emitted)));
+        console.warn(fmt::format(
+            "{:.1f} % of the light met black backs: is the mesh wound inside out? (--sides two)",
+            100.0 * luminance(lost) / luminance(solution.balance.emitted)));
     save_solution(solution, record, a.output);
     console.end_progress();
     print_summary(solution, a.output);
@@ -99,7 +150,8 @@ int run(const BakeArguments& a, const Common& common) {
 
 void add_bake(CLI::App& program, const Common& common, int& exit_code) {
     auto arguments = std::make_shared<BakeArguments>();
-    CLI::App* command = program.add_subcommand("bake", "Compute the global illumination of a scene and store it");
+    CLI::App* command =
+        program.add_subcommand("bake", "Compute the global illumination of a scene and store it");
     add_options(*command, *arguments);
     command->callback([arguments, &common, &exit_code] { exit_code = run(*arguments, common); });
 }

@@ -14,7 +14,7 @@ namespace transillum::cli {
 struct CameraOptions {
     std::string name;
     std::vector<double> eye, look_at, up;  ///< three numbers, or none
-    double vertical_fov = 0.0;  ///< 0: the camera's own
+    double vertical_fov = 0.0;             ///< 0: the camera's own
     std::string size = "500x500";
 };
 
@@ -27,13 +27,16 @@ void add_camera_options(CLI::App& command, CameraOptions& options);
 void add_image_options(CLI::App& command, ImageOptions& options);
 
 /// \throws UsageError for an unknown name, an impossible view, or a name beside a free view.
-[[nodiscard]] Camera make_camera(const CameraOptions& options, const std::vector<Camera>& cameras, const SurfaceMesh& surface);
+[[nodiscard]] Camera make_camera(const CameraOptions& options, const std::vector<Camera>& cameras,
+                                 const SurfaceMesh& surface);
 
 /// \throws UsageError for another extension than .exr and .png, IoError as require_writable.
 void require_writable(const ImageOptions& options);
 
 /// "640x480". \throws UsageError unless both are in [1, 16384].
-struct Size { int width, height; };
+struct Size {
+    int width, height;
+};
 [[nodiscard]] Size parse_size(const std::string& text);
 
 }  // namespace transillum::cli

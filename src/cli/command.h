@@ -7,7 +7,14 @@
 
 namespace transillum::cli {
 
-enum ExitCode { done = 0, comparison_failed = 1, usage = 2, bad_input = 3, io_failed = 4, interrupted = 130 };
+enum ExitCode {
+    done = 0,
+    comparison_failed = 1,
+    usage = 2,
+    bad_input = 3,
+    io_failed = 4,
+    interrupted = 130
+};
 
 /// Options every subcommand shares.
 struct Common {

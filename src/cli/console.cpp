@@ -4,10 +4,10 @@
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <unistd.h>
 #include <atomic>
 #include <cmath>
 #include <csignal>
-#include <unistd.h>
 
 namespace transillum::cli {
 
@@ -22,7 +22,8 @@ void on_interrupt(int) {
 
 std::string duration(double seconds) {
     const auto s = static_cast<long>(std::lround(seconds));
-    return s < 3600 ? fmt::format("{}:{:02}", s / 60, s % 60) : fmt::format("{}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60);
+    return s < 3600 ? fmt::format("{}:{:02}", s / 60, s % 60)
+                    : fmt::format("{}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60);
 }
 
 std::shared_ptr<spdlog::logger> logger() {
@@ -63,7 +64,9 @@ void Console::progress(const Progress& p) {
     if (std::isfinite(p.error)) line += fmt::format("  error {:.2f} %", 100.0 * p.error);
     line += fmt::format("  elapsed {}", duration(elapsed));
     if (p.total > p.done && p.done > 0)
-        line += fmt::format("  remaining {}", duration(elapsed * static_cast<double>(p.total - p.done) / static_cast<double>(p.done)));
+        line +=
+            fmt::format("  remaining {}", duration(elapsed * static_cast<double>(p.total - p.done) /
+                                                   static_cast<double>(p.done)));
     fmt::print(stderr, "{}{:<78}{}", terminal_ ? "\r" : "", line, terminal_ && !last ? "" : "\n");
     std::fflush(stderr);
     line_open_ = terminal_ && !last;

@@ -24,7 +24,7 @@ private:
     using Clock = std::chrono::steady_clock;
 
     bool quiet_;
-    bool terminal_;          ///< a line of progress can be rewritten
+    bool terminal_;  ///< a line of progress can be rewritten
     bool line_open_ = false;
     std::string phase_;
     Clock::time_point phase_start_ = Clock::now(), last_shown_{};

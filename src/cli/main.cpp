@@ -24,7 +24,8 @@ int fail(const char* what, int exit_code) {
     return exit_code;
 }
 
-/// What is wrong with the command line. An unknown option says more than the argument that it displaced.
+/// What is wrong with the command line. An unknown option says more than the argument that it
+/// displaced.
 std::string describe(const CLI::App& program, const CLI::ParseError& error) {
     for (const std::string& word : program.remaining(true))
         if (word.starts_with('-')) return "unknown option " + word + "; accepted: those of --help";
@@ -34,12 +35,17 @@ std::string describe(const CLI::App& program, const CLI::ParseError& error) {
 }
 
 int parse_and_run(int argc, char** argv) {
-    CLI::App program("transillum: bakes view-independent global illumination into VTK meshes and looks at them again", "transillum");
+    CLI::App program(
+        "transillum: bakes view-independent global illumination into VTK meshes and looks at them "
+        "again",
+        "transillum");
     program.set_version_flag("--version", "transillum " TRANSILLUM_VERSION);
     program.require_subcommand(1);
     program.fallthrough();
-    program.footer("Exit codes: 0 done, 1 comparison failed, 2 usage, 3 bad input, 4 input/output, 130 interrupted.\n"
-                   "Data goes to stdout, progress and messages to stderr.");
+    program.footer(
+        "Exit codes: 0 done, 1 comparison failed, 2 usage, 3 bad input, 4 input/output, 130 "
+        "interrupted.\n"
+        "Data goes to stdout, progress and messages to stderr.");
     Common common{join(argc, argv)};
     program.add_flag("-q,--quiet", common.quiet, "no progress and no notes");
     int exit_code = ExitCode::done;

@@ -39,16 +39,27 @@ int run(ReferenceArguments& a, const Common& common) {
 
 void add_reference(CLI::App& program, const Common& common, int& exit_code) {
     auto a = std::make_shared<ReferenceArguments>();
-    CLI::App* command = program.add_subcommand("reference", "Path-trace a scene, to measure errors against");
+    CLI::App* command =
+        program.add_subcommand("reference", "Path-trace a scene, to measure errors against");
     add_scene_options(*command, a->scene);
     add_camera_options(*command, a->camera);
     add_image_options(*command, a->image);
     command->add_option("--samples", a->path_trace.samples, "paths a pixel")
-        ->check(CLI::Range(1, 1 << 24))->capture_default_str()->group("Paths");
-    command->add_option("--max-bounces", a->path_trace.max_bounces, "0: no limit, roulette alone ends paths")
-        ->check(CLI::NonNegativeNumber)->capture_default_str()->group("Paths");
-    command->add_option("--seed", a->path_trace.seed, "of the paths")->capture_default_str()->group("Paths");
-    command->add_option("--threads", a->threads, "0: as many as the machine has")->capture_default_str()->group("Paths");
+        ->check(CLI::Range(1, 1 << 24))
+        ->capture_default_str()
+        ->group("Paths");
+    command
+        ->add_option("--max-bounces", a->path_trace.max_bounces,
+                     "0: no limit, roulette alone ends paths")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str()
+        ->group("Paths");
+    command->add_option("--seed", a->path_trace.seed, "of the paths")
+        ->capture_default_str()
+        ->group("Paths");
+    command->add_option("--threads", a->threads, "0: as many as the machine has")
+        ->capture_default_str()
+        ->group("Paths");
     command->callback([a, &common, &exit_code] { exit_code = run(*a, common); });
 }
 

@@ -62,14 +62,26 @@ void add_render(CLI::App& program, const Common& common, int& exit_code) {
     add_image_options(*command, a->image);
     add_choice(*command, "--direct", a->render.direct,
                {{"stored", DirectShading::stored}, {"traced", DirectShading::traced}},
-               "direct light: as stored a patch, or by shadow rays to the light samples")->group("Shading");
-    command->add_option("--components", a->components, "of: emission, direct, finite-element (default: all)")->delimiter(',')
-        ->check(CLI::IsMember({"emission", "direct", "finite-element"}))->group("Shading");
-    command->add_flag("--flat", a->flat, "one radiance a patch instead of interpolation")->group("Shading");
+               "direct light: as stored a patch, or by shadow rays to the light samples")
+        ->group("Shading");
+    command
+        ->add_option("--components", a->components,
+                     "of: emission, direct, finite-element (default: all)")
+        ->delimiter(',')
+        ->check(CLI::IsMember({"emission", "direct", "finite-element"}))
+        ->group("Shading");
+    command->add_flag("--flat", a->flat, "one radiance a patch instead of interpolation")
+        ->group("Shading");
     command->add_option("--samples", a->render.samples, "most rays a pixel; flat pixels get fewer")
-        ->check(CLI::Range(1, 4096))->capture_default_str()->group("Shading");
-    command->add_option("--seed", a->render.seed, "of the positions in a pixel")->capture_default_str()->group("Shading");
-    command->add_option("--threads", a->threads, "0: as many as the machine has")->capture_default_str()->group("Shading");
+        ->check(CLI::Range(1, 4096))
+        ->capture_default_str()
+        ->group("Shading");
+    command->add_option("--seed", a->render.seed, "of the positions in a pixel")
+        ->capture_default_str()
+        ->group("Shading");
+    command->add_option("--threads", a->threads, "0: as many as the machine has")
+        ->capture_default_str()
+        ->group("Shading");
     command->callback([a, &common, &exit_code] { exit_code = run(*a, common); });
 }
 

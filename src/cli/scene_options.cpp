@@ -5,12 +5,12 @@
 
 #include <fmt/format.h>
 
+#include <unistd.h>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <limits>
-#include <unistd.h>
 
 namespace transillum::cli {
 
@@ -18,11 +18,17 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
     command.add_option("SCENE", options.path, "scene: .gltf .glb .obj .ply .stl .off")->required();
     add_choice(command, "--sides", options.load.sides,
                {{"file", Sides::file}, {"one", Sides::one}, {"two", Sides::two}},
-               "which sides of a surface reflect and emit")->group("Scene");
-    command.add_flag("--drop-transparent", options.load.drop_transparent,
-                     "leave out transparent surfaces (else they are opaque)")->group("Scene");
-    command.add_option("--max-albedo", options.max_albedo, "albedos above it are reduced, per channel")
-        ->check(within(0.0, 1.0))->capture_default_str()->group("Scene");
+               "which sides of a surface reflect and emit")
+        ->group("Scene");
+    command
+        .add_flag("--drop-transparent", options.load.drop_transparent,
+                  "leave out transparent surfaces (else they are opaque)")
+        ->group("Scene");
+    command
+        .add_option("--max-albedo", options.max_albedo, "albedos above it are reduced, per channel")
+        ->check(within(0.0, 1.0))
+        ->capture_default_str()
+        ->group("Scene");
 }
 
 Scene read_scene(const SceneOptions& options, Monitor& monitor) {
@@ -48,10 +54,13 @@ CLI::Validator not_negative() {
 void require_writable(const std::string& path) {
     const std::filesystem::path file(path);
     const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
-    if (!std::filesystem::is_directory(folder)) throw IoError(path, "its folder does not exist; accepted: an existing one");
-    if (std::filesystem::is_directory(file)) throw IoError(path, "is a folder; accepted: a file's name");
+    if (!std::filesystem::is_directory(folder))
+        throw IoError(path, "its folder does not exist; accepted: an existing one");
+    if (std::filesystem::is_directory(file))
+        throw IoError(path, "is a folder; accepted: a file's name");
     std::string trial = (folder / ".transillum.XXXXXX").string();
-    if (!mkdtemp(trial.data())) throw IoError(path, std::string("cannot write to its folder: ") + std::strerror(errno));
+    if (!mkdtemp(trial.data()))
+        throw IoError(path, std::string("cannot write to its folder: ") + std::strerror(errno));
     rmdir(trial.c_str());
 }
 

@@ -42,9 +42,12 @@ CLI::Option* add_choice(CLI::App& command, const std::string& name, Enum& value,
         accepted += (accepted.empty() ? "" : "|") + word;
         if (meaning == value) now = word;
     }
-    return command.add_option_function<std::string>(
-        name, [&value, words](const std::string& word) { value = words.at(word); }, help)
-        ->check(CLI::IsMember(words).description(""))->type_name(accepted)->default_str(now);
+    return command
+        .add_option_function<std::string>(
+            name, [&value, words](const std::string& word) { value = words.at(word); }, help)
+        ->check(CLI::IsMember(words).description(""))
+        ->type_name(accepted)
+        ->default_str(now);
 }
 
 }  // namespace transillum::cli

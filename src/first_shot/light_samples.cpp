@@ -44,7 +44,8 @@ std::vector<Luminaire> find_luminaires(const SurfaceMesh& mesh) {
     for (std::uint32_t i = 0; i < sides.size(); ++i) {
         const RootTriangle& t = mesh.triangles[sides[i].root];
         for (const std::uint32_t v : t.vertices) {
-            const auto [at, is_new] = first_at.try_emplace({v, t.material, sides[i].back ? 1u : 0u}, i);
+            const auto [at, is_new] =
+                first_at.try_emplace({v, t.material, sides[i].back ? 1u : 0u}, i);
             if (is_new) continue;
             const std::uint32_t a = find(i), b = find(at->second);
             parent[std::max(a, b)] = std::min(a, b);
@@ -71,7 +72,8 @@ glm::dvec3 point_in(const SurfaceMesh& mesh, std::uint32_t root, double u, doubl
         b1 = u - b2;
     }
     const auto& t = mesh.triangles[root].vertices;
-    return (1.0 - b1 - b2) * mesh.positions[t[0]] + b1 * mesh.positions[t[1]] + b2 * mesh.positions[t[2]];
+    return (1.0 - b1 - b2) * mesh.positions[t[0]] + b1 * mesh.positions[t[1]] +
+           b2 * mesh.positions[t[2]];
 }
 
 void add_samples(const SurfaceMesh& mesh, const Luminaire& luminaire, int count, std::uint64_t seed,
@@ -84,7 +86,8 @@ void add_samples(const SurfaceMesh& mesh, const Luminaire& luminaire, int count,
         while (side + 1 != luminaire.end() && before + side->area < along) before += (side++)->area;
         const auto index = static_cast<std::uint32_t>(i);
         LightSample s;
-        s.position = point_in(mesh, side->root, sobol_owen(index, 0, seed), sobol_owen(index, 1, seed));
+        s.position =
+            point_in(mesh, side->root, sobol_owen(index, 0, seed), sobol_owen(index, 1, seed));
         s.normal = normal_of(mesh, side->root) * (side->back ? -1.0 : 1.0);
         s.area = piece;
         s.radiance = mesh.materials[mesh.triangles[side->root].material].emission;
@@ -96,7 +99,8 @@ void add_samples(const SurfaceMesh& mesh, const Luminaire& luminaire, int count,
 
 /// About 128 in all, between 4 and 64 each, a power of two: the sequence fills strata then.
 int samples_for(std::size_t luminaires) {
-    const auto each = static_cast<unsigned>(std::clamp<std::size_t>(128 / std::max<std::size_t>(luminaires, 1), 4, 64));
+    const auto each = static_cast<unsigned>(
+        std::clamp<std::size_t>(128 / std::max<std::size_t>(luminaires, 1), 4, 64));
     return static_cast<int>(std::bit_floor(each));
 }
 
@@ -104,13 +108,15 @@ int samples_for(std::size_t luminaires) {
 
 Luminaires sample_luminaires(const SurfaceMesh& mesh, const LightSampleOptions& options) {
     if (options.samples < 0 || options.samples > 4096)
-        throw UsageError("light samples " + std::to_string(options.samples) + "; accepted: 0 (automatic) to 4096 a luminaire");
+        throw UsageError("light samples " + std::to_string(options.samples) +
+                         "; accepted: 0 (automatic) to 4096 a luminaire");
     Luminaires result;
     result.shot_sides.resize(2 * mesh.triangles.size());
     const std::vector<Luminaire> luminaires = find_luminaires(mesh);
     result.count = static_cast<std::uint32_t>(luminaires.size());
     double surface = 0.0;
-    for (std::uint32_t r = 0; r < mesh.triangles.size(); ++r) surface += transillum::area_of(mesh, r);
+    for (std::uint32_t r = 0; r < mesh.triangles.size(); ++r)
+        surface += transillum::area_of(mesh, r);
     const int count = options.samples > 0 ? options.samples : samples_for(luminaires.size());
     for (std::size_t i = 0; i < luminaires.size(); ++i) {
         const double share = area_of(luminaires[i]) / surface;
@@ -121,7 +127,8 @@ Luminaires sample_luminaires(const SurfaceMesh& mesh, const LightSampleOptions& 
         }
         ++result.shot;
         add_samples(mesh, luminaires[i], count, hash_bits(options.seed) + i, result.samples);
-        for (const EmittingSide& s : luminaires[i]) result.shot_sides[2 * s.root + (s.back ? 1 : 0)] = 1;
+        for (const EmittingSide& s : luminaires[i])
+            result.shot_sides[2 * s.root + (s.back ? 1 : 0)] = 1;
     }
     return result;
 }

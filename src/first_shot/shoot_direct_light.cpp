@@ -21,8 +21,9 @@ glm::dmat3 turned_frame(const LightSample& sample, std::size_t index) {
 
 }  // namespace
 
-DirectLight shoot_direct_light(const SurfaceMesh& mesh, const PatchHierarchy& patches, const Luminaires& luminaires,
-                               int hemicube_resolution, const Workers& workers, Monitor& monitor) {
+DirectLight shoot_direct_light(const SurfaceMesh& mesh, const PatchHierarchy& patches,
+                               const Luminaires& luminaires, int hemicube_resolution,
+                               const Workers& workers, Monitor& monitor) {
     DirectLight light;
     light.samples = luminaires.samples;
     light.shot_sides = luminaires.shot_sides;
@@ -39,7 +40,8 @@ DirectLight shoot_direct_light(const SurfaceMesh& mesh, const PatchHierarchy& pa
             const LightSample& sample = light.samples[i];
             const auto& views = hemicube->look(sample.position, turned_frame(sample, i));
             for (std::uint32_t p = 0; p < patches.patch_count(); ++p) {
-                light.projected_solid_angle[p * n + i] = static_cast<float>(views[p].mean_kernel * sample.area);
+                light.projected_solid_angle[p * n + i] =
+                    static_cast<float>(views[p].mean_kernel * sample.area);
                 light.visibility[p * n + i] = views[p].visibility;
             }
             const std::lock_guard lock(reporting);

@@ -41,8 +41,10 @@ int grid_exponent(const Scene& scene, const std::vector<bool>& used) {
     for (const glm::dvec3& p : scene.positions) {
         if (!used[static_cast<std::size_t>(&p - scene.positions.data())]) continue;
         if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
-            throw InputError(scene.path, "vertex " + std::to_string(&p - scene.positions.data()) +
-                                             " has a coordinate that is no finite number; accepted: finite ones");
+            throw InputError(
+                scene.path,
+                "vertex " + std::to_string(&p - scene.positions.data()) +
+                    " has a coordinate that is no finite number; accepted: finite ones");
         largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
     }
     if (largest == 0.0) return -grid_bits;
@@ -52,7 +54,9 @@ int grid_exponent(const Scene& scene, const std::vector<bool>& used) {
 }
 
 glm::dvec3 snap(const glm::dvec3& p, int exponent) {
-    const auto round = [&](double x) { return std::ldexp(std::nearbyint(std::ldexp(x, -exponent)), exponent) + 0.0; };
+    const auto round = [&](double x) {
+        return std::ldexp(std::nearbyint(std::ldexp(x, -exponent)), exponent) + 0.0;
+    };
     return {round(p.x), round(p.y), round(p.z)};
 }
 
@@ -74,7 +78,8 @@ std::vector<std::uint32_t> weld(const Scene& scene, SurfaceMesh& mesh, SurfaceRe
         const glm::dvec3& p = positions[i];
         const glm::dvec3 s = snap(p, mesh.grid.exponent);
         mesh.grid.largest_move = std::max(mesh.grid.largest_move, glm::length(s - p));
-        const auto [at, is_new] = index.try_emplace(s, static_cast<std::uint32_t>(mesh.positions.size()));
+        const auto [at, is_new] =
+            index.try_emplace(s, static_cast<std::uint32_t>(mesh.positions.size()));
         if (is_new) mesh.positions.push_back(s);
         renumbered.push_back(at->second);
     }
@@ -82,7 +87,8 @@ std::vector<std::uint32_t> weld(const Scene& scene, SurfaceMesh& mesh, SurfaceRe
     return renumbered;
 }
 
-/// The three vertices turned so that the smallest comes first: equal for faces that cover each other alike.
+/// The three vertices turned so that the smallest comes first: equal for faces that cover each
+/// other alike.
 std::array<std::uint32_t, 3> turned(std::array<std::uint32_t, 3> v) {
     std::rotate(v.begin(), std::min_element(v.begin(), v.end()), v.end());
     return v;
@@ -93,8 +99,9 @@ bool has_no_area(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) 
     return are_collinear(a, b, c) || glm::cross(b - a, c - a) == glm::dvec3(0.0);
 }
 
-void add_polygon(const Scene& scene, const Polygon& polygon, const std::vector<std::uint32_t>& renumbered,
-                 SurfaceMesh& mesh, std::set<std::array<std::uint32_t, 3>>& seen, SurfaceReport& report) {
+void add_polygon(const Scene& scene, const Polygon& polygon,
+                 const std::vector<std::uint32_t>& renumbered, SurfaceMesh& mesh,
+                 std::set<std::array<std::uint32_t, 3>>& seen, SurfaceReport& report) {
     std::vector<glm::dvec3> outline;
     std::vector<std::uint32_t> vertices;
     for (std::uint32_t c = 0; c < polygon.corner_count; ++c) {
@@ -104,7 +111,9 @@ void add_polygon(const Scene& scene, const Polygon& polygon, const std::vector<s
     const auto triangles = triangulate_polygon(outline);
     if (triangles.empty()) ++report.degenerate;
     for (const auto& corner : triangles) {
-        RootTriangle t{.material = polygon.material, .object = polygon.object, .source_face = polygon.source_face};
+        RootTriangle t{.material = polygon.material,
+                       .object = polygon.object,
+                       .source_face = polygon.source_face};
         for (int i = 0; i < 3; ++i) t.vertices[i] = vertices[corner[i]];
         if (has_no_area(outline[corner[0]], outline[corner[1]], outline[corner[2]])) {
             ++report.degenerate;
@@ -113,7 +122,8 @@ void add_polygon(const Scene& scene, const Polygon& polygon, const std::vector<s
         } else {
             mesh.triangles.push_back(t);
             if (scene.uvs.empty()) continue;
-            for (const std::uint32_t c : corner) mesh.uvs.push_back(scene.uvs[polygon.first_corner + c]);
+            for (const std::uint32_t c : corner)
+                mesh.uvs.push_back(scene.uvs[polygon.first_corner + c]);
         }
     }
 }
@@ -136,7 +146,8 @@ void drop_unused_vertices(SurfaceMesh& mesh) {
 
 void tell(const Scene& scene, const SurfaceReport& report, Monitor& monitor) {
     if (report.degenerate > 0)
-        monitor.note(scene.path + ": left out " + std::to_string(report.degenerate) + " triangles without area");
+        monitor.note(scene.path + ": left out " + std::to_string(report.degenerate) +
+                     " triangles without area");
     if (report.duplicate > 0)
         monitor.note(scene.path + ": left out " + std::to_string(report.duplicate) +
                      " triangles that repeat an earlier one");

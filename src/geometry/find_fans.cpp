@@ -23,7 +23,9 @@ using HalfEdgeMesh = OpenMesh::TriMesh_ArrayKernelT<Traits>;
 /// Disjoint sets of corners, 3 * triangle + corner.
 class CornerSets {
 public:
-    explicit CornerSets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0u); }
+    explicit CornerSets(std::size_t n) : parent_(n) {
+        std::iota(parent_.begin(), parent_.end(), 0u);
+    }
     std::uint32_t find(std::uint32_t i) {
         while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
         return i;
@@ -57,7 +59,8 @@ public:
     QuietOpenMesh& operator=(const QuietOpenMesh&) = delete;
 };
 
-/// Face i of the half-edge mesh is triangle i; a triangle that would make it non-manifold gets vertices of its own.
+/// Face i of the half-edge mesh is triangle i; a triangle that would make it non-manifold gets
+/// vertices of its own.
 HalfEdgeMesh make_half_edges(const SurfaceMesh& mesh) {
     const QuietOpenMesh quiet;
     HalfEdgeMesh half_edges;
@@ -69,7 +72,8 @@ HalfEdgeMesh make_half_edges(const SurfaceMesh& mesh) {
     for (const RootTriangle& t : mesh.triangles) {
         std::array<OpenMesh::VertexHandle, 3> v;
         for (int i = 0; i < 3; ++i) v[i] = OpenMesh::VertexHandle(static_cast<int>(t.vertices[i]));
-        if (!is_complex(half_edges, v) && half_edges.add_face(v[0], v[1], v[2]).is_valid()) continue;
+        if (!is_complex(half_edges, v) && half_edges.add_face(v[0], v[1], v[2]).is_valid())
+            continue;
         for (int i = 0; i < 3; ++i) v[i] = add(t.vertices[i]);
         half_edges.add_face(v[0], v[1], v[2]);
     }
@@ -78,11 +82,13 @@ HalfEdgeMesh make_half_edges(const SurfaceMesh& mesh) {
 
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
-/// Edges of three or more triangles, sorted. Light may differ on all sides of them: a floor that runs on under a wall.
+/// Edges of three or more triangles, sorted. Light may differ on all sides of them: a floor that
+/// runs on under a wall.
 std::vector<Edge> edges_of_many(const SurfaceMesh& mesh) {
     std::vector<Edge> all, many;
     for (const RootTriangle& t : mesh.triangles)
-        for (int i = 0; i < 3; ++i) all.push_back(std::minmax(t.vertices[i], t.vertices[(i + 1) % 3]));
+        for (int i = 0; i < 3; ++i)
+            all.push_back(std::minmax(t.vertices[i], t.vertices[(i + 1) % 3]));
     std::sort(all.begin(), all.end());
     for (std::size_t i = 2; i < all.size(); ++i)
         if (all[i] == all[i - 2] && (many.empty() || many.back() != all[i])) many.push_back(all[i]);
@@ -122,7 +128,8 @@ void find_fans(SurfaceMesh& mesh, double crease_angle, SurfaceReport& report) {
         }
         std::array<std::uint32_t, 2> at_f{}, at_g{};
         for (int end = 0; end < 2; ++end) {
-            const auto v = end == 0 ? half_edges.from_vertex_handle(h) : half_edges.to_vertex_handle(h);
+            const auto v =
+                end == 0 ? half_edges.from_vertex_handle(h) : half_edges.to_vertex_handle(h);
             const auto& p = half_edges.point(v);
             at_f[end] = corner_at(mesh, f, {p[0], p[1], p[2]});
             at_g[end] = corner_at(mesh, g, {p[0], p[1], p[2]});

@@ -16,7 +16,8 @@ constexpr std::size_t leaves_by_default = 30000;
 double longest_edge(const SurfaceMesh& mesh, const RootTriangle& t) {
     double longest = 0.0;
     for (int i = 0; i < 3; ++i)
-        longest = std::max(longest, glm::distance(mesh.positions[t.vertices[i]], mesh.positions[t.vertices[(i + 1) % 3]]));
+        longest = std::max(longest, glm::distance(mesh.positions[t.vertices[i]],
+                                                  mesh.positions[t.vertices[(i + 1) % 3]]));
     return longest;
 }
 
@@ -36,7 +37,8 @@ double size_for_count(const std::vector<double>& edges, double target, int max_l
     for (int step = 0; step < 40; ++step) {
         const double middle = std::sqrt(small * large);
         double leaves = 0.0;
-        for (const double edge : edges) leaves += std::ldexp(1.0, 2 * level_for(edge, middle, max_level));
+        for (const double edge : edges)
+            leaves += std::ldexp(1.0, 2 * level_for(edge, middle, max_level));
         (leaves >= target ? small : large) = middle;
     }
     return small;
@@ -61,8 +63,8 @@ std::array<glm::ivec2, 3> leaf_corners(const PatchHierarchy& patches, std::uint3
 glm::dvec3 point_of_root(const SurfaceMesh& mesh, std::uint32_t root, glm::ivec2 b, int level) {
     const auto& v = mesh.triangles[root].vertices;
     const double n = std::ldexp(1.0, level);
-    const glm::dvec3 sum = (n - b.x - b.y) * mesh.positions[v[0]] + double(b.x) * mesh.positions[v[1]] +
-                           double(b.y) * mesh.positions[v[2]];
+    const glm::dvec3 sum = (n - b.x - b.y) * mesh.positions[v[0]] +
+                           double(b.x) * mesh.positions[v[1]] + double(b.y) * mesh.positions[v[2]];
     return sum / n;
 }
 
@@ -80,7 +82,8 @@ PatchHierarchy subdivide_to_levels(const std::vector<int>& levels) {
         leaves += std::uint64_t{1} << (2 * level);
     }
     if (leaves > (std::uint64_t{1} << 30))
-        throw UsageError(std::to_string(leaves) + " leaf patches; accepted: at most 2^30; raise the patch size");
+        throw UsageError(std::to_string(leaves) +
+                         " leaf patches; accepted: at most 2^30; raise the patch size");
     patches.root_of_leaf.reserve(leaves);
     for (std::uint32_t r = 0; r < levels.size(); ++r) {
         patches.roots.push_back({patches.leaf_count, levels[r]});
@@ -92,15 +95,18 @@ PatchHierarchy subdivide_to_levels(const std::vector<int>& levels) {
 
 PatchHierarchy subdivide_uniformly(const SurfaceMesh& mesh, const SubdivisionOptions& options) {
     if (!(options.patch_size >= 0.0) || std::isinf(options.patch_size))
-        throw UsageError("patch size " + std::to_string(options.patch_size) + "; accepted: 0 (automatic) or a length");
+        throw UsageError("patch size " + std::to_string(options.patch_size) +
+                         "; accepted: 0 (automatic) or a length");
     if (options.max_level < 0 || options.max_level > max_subdivision_level)
         throw UsageError("max level " + std::to_string(options.max_level) + "; accepted: 0 to " +
                          std::to_string(max_subdivision_level));
     std::vector<double> edges;
     for (const RootTriangle& t : mesh.triangles) edges.push_back(longest_edge(mesh, t));
-    const double target = options.leaf_target > 0 ? options.leaf_target
-                                                  : static_cast<double>(edges.size() + leaves_by_default);
-    const double size = options.patch_size > 0.0 ? options.patch_size : size_for_count(edges, target, options.max_level);
+    const double target = options.leaf_target > 0
+                              ? options.leaf_target
+                              : static_cast<double>(edges.size() + leaves_by_default);
+    const double size = options.patch_size > 0.0 ? options.patch_size
+                                                 : size_for_count(edges, target, options.max_level);
     std::vector<int> levels;
     for (const double edge : edges) levels.push_back(level_for(edge, size, options.max_level));
     return subdivide_to_levels(levels);

@@ -26,8 +26,9 @@ struct FaceInfo {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<VertexInfo, Kernel>;
-using FaceBase = CGAL::Triangulation_face_base_with_info_2<
-    FaceInfo, Kernel, CGAL::Constrained_triangulation_face_base_2<Kernel>>;
+using FaceBase =
+    CGAL::Triangulation_face_base_with_info_2<FaceInfo, Kernel,
+                                              CGAL::Constrained_triangulation_face_base_2<Kernel>>;
 using Structure = CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>;
 // Outlines that cross themselves get the crossing as a new vertex.
 using Triangulation =
@@ -50,12 +51,14 @@ std::vector<std::array<std::uint32_t, 3>> fan_of(std::size_t corners) {
 /// Drops the coordinate along which the polygon faces most, keeping its turning sense.
 Kernel::Point_2 project(const glm::dvec3& p, const glm::dvec3& normal) {
     const glm::dvec3 a = glm::abs(normal);
-    if (a.z >= a.x && a.z >= a.y) return normal.z > 0 ? Kernel::Point_2(p.x, p.y) : Kernel::Point_2(p.y, p.x);
+    if (a.z >= a.x && a.z >= a.y)
+        return normal.z > 0 ? Kernel::Point_2(p.x, p.y) : Kernel::Point_2(p.y, p.x);
     if (a.x >= a.y) return normal.x > 0 ? Kernel::Point_2(p.y, p.z) : Kernel::Point_2(p.z, p.y);
     return normal.y > 0 ? Kernel::Point_2(p.z, p.x) : Kernel::Point_2(p.x, p.z);
 }
 
-void insert_outline(Triangulation& t, std::span<const glm::dvec3> outline, const glm::dvec3& normal) {
+void insert_outline(Triangulation& t, std::span<const glm::dvec3> outline,
+                    const glm::dvec3& normal) {
     std::vector<Vertex> vertices;
     for (std::uint32_t i = 0; i < outline.size(); ++i) {
         const std::size_t before = t.number_of_vertices();
@@ -73,7 +76,8 @@ void insert_outline(Triangulation& t, std::span<const glm::dvec3> outline, const
         edges.push_back(std::minmax(a, b));
         odd[edges.back()] ^= true;
     }
-    // In the outline's order: handles compare by address, which would choose between equal diagonals.
+    // In the outline's order: handles compare by address, which would choose between equal
+    // diagonals.
     for (const auto& edge : edges)
         if (odd[edge]) t.insert_constraint(edge.first, edge.second);
 }

@@ -36,8 +36,7 @@ Camera choose_camera(const std::vector<Camera>& cameras, const SurfaceMesh& surf
         if (name.empty() || camera.name == name) return camera;
     if (name.empty()) return framing_camera(surface);
     std::string known;
-    for (const Camera& camera : cameras)
-        known += (known.empty() ? "'" : ", '") + camera.name + "'";
+    for (const Camera& camera : cameras) known += (known.empty() ? "'" : ", '") + camera.name + "'";
     throw UsageError("camera '" + name + "' is unknown; accepted: " +
                      (known.empty() ? std::string("none, there are no cameras") : known));
 }

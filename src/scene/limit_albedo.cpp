@@ -37,7 +37,8 @@ void limit_albedo(Scene& scene, float max_albedo, Monitor& monitor) {
         std::ostringstream message;
         message << "material '" << material.name << "' reflects " << before.x << ' ' << before.y
                 << ' ' << before.z << ", above the limit of " << max_albedo << ": "
-                << std::setprecision(2) << 100.0f * removed << " % of the light it reflects is removed";
+                << std::setprecision(2) << 100.0f * removed
+                << " % of the light it reflects is removed";
         monitor.warn(message.str());
     }
 }

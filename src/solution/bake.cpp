@@ -24,7 +24,8 @@ public:
     explicit StopWatch(RunRecord* run) : run_(run) {}
     void lap(const char* phase) {
         const auto now = std::chrono::steady_clock::now();
-        if (run_) run_->seconds.emplace_back(phase, std::chrono::duration<double>(now - last_).count());
+        if (run_)
+            run_->seconds.emplace_back(phase, std::chrono::duration<double>(now - last_).count());
         last_ = now;
     }
 
@@ -36,8 +37,11 @@ private:
 void require_light(const Scene& scene, const SurfaceMesh& mesh) {
     for (const RootTriangle& t : mesh.triangles)
         if (mesh.materials[t.material].emits()) return;
-    throw InputError(scene.path, fmt::format("no light: none of the materials of its {} triangles emits; accepted: at "
-                                             "least one (OBJ: Ke, glTF: emissiveFactor)", mesh.triangles.size()));
+    throw InputError(
+        scene.path,
+        fmt::format("no light: none of the materials of its {} triangles emits; accepted: at "
+                    "least one (OBJ: Ke, glTF: emissiveFactor)",
+                    mesh.triangles.size()));
 }
 
 /// So many pixels that an average leaf (by area) is three wide.
@@ -49,12 +53,14 @@ double automatic_pixel_size(const SurfaceMesh& mesh, const PatchHierarchy& patch
         weighted_edge += a * std::sqrt(2.0 * leaf_area(mesh, patches, r));
     }
     const double wanted = weighted_edge / area / pixels_a_leaf_edge;
-    return std::clamp(wanted, pixel_size_for(mesh, largest_resolution), pixel_size_for(mesh, least_resolution));
+    return std::clamp(wanted, pixel_size_for(mesh, largest_resolution),
+                      pixel_size_for(mesh, least_resolution));
 }
 
 PatchSources make_sources(const Solution& s) {
     const std::uint32_t n = s.patches.patch_count();
-    PatchSources sources{std::vector<Spectrum>(n), std::vector<Spectrum>(n), std::vector<Spectrum>(n)};
+    PatchSources sources{std::vector<Spectrum>(n), std::vector<Spectrum>(n),
+                         std::vector<Spectrum>(n)};
     for (std::uint32_t p = 0; p < n; ++p) {
         const std::uint32_t root = s.patches.root_of_leaf[s.patches.leaf_of_patch(p)];
         const bool shot = s.direct.shot_sides[2 * root + (s.patches.is_back(p) ? 1 : 0)] != 0;
@@ -68,7 +74,8 @@ PatchSources make_sources(const Solution& s) {
 /// Is there anything for the iteration to carry, and anything that could reflect it?
 bool needs_transport(const PatchSources& sources) {
     for (std::size_t p = 0; p < sources.albedo.size(); ++p)
-        if (max_channel(sources.emission[p]) > 0.0f || max_channel(sources.direct[p]) > 0.0f) return true;
+        if (max_channel(sources.emission[p]) > 0.0f || max_channel(sources.direct[p]) > 0.0f)
+            return true;
     return false;
 }
 
@@ -108,9 +115,11 @@ EnergyBalance measure_balance(const Solution& s, const SpectrumSum& escaped_in_t
     EnergyBalance balance;
     balance.escaped = escaped_in_transport;
     SpectrumSum shot(0.0), arrived(0.0);
-    for (const LightSample& l : s.direct.samples) shot += SpectrumSum(l.radiance) * (std::numbers::pi * l.area);
+    for (const LightSample& l : s.direct.samples)
+        shot += SpectrumSum(l.radiance) * (std::numbers::pi * l.area);
     for (std::uint32_t p = 0; p < s.patches.patch_count(); ++p) {
-        const double area = leaf_area(s.surface, s.patches, s.patches.root_of_leaf[s.patches.leaf_of_patch(p)]);
+        const double area =
+            leaf_area(s.surface, s.patches, s.patches.root_of_leaf[s.patches.leaf_of_patch(p)]);
         const SpectrumSum direct = area * SpectrumSum(s.direct_irradiance[p]);
         const SpectrumSum flux = direct + area * SpectrumSum(s.indirect_irradiance[p]);
         arrived += direct;
@@ -124,16 +133,22 @@ EnergyBalance measure_balance(const Solution& s, const SpectrumSum& escaped_in_t
     return balance;
 }
 
-void decide_first_shot(const Luminaires& luminaires, FirstShot choice, std::vector<Decision>& decisions) {
-    const char* const why = choice == FirstShot::automatic ? "a small part of the scene's surface" : "asked for";
+void decide_first_shot(const Luminaires& luminaires, FirstShot choice,
+                       std::vector<Decision>& decisions) {
+    const char* const why =
+        choice == FirstShot::automatic ? "a small part of the scene's surface" : "asked for";
     if (luminaires.shot > 0)
-        decisions.push_back({fmt::format("first shot: {} of {} luminaires, {} light samples", luminaires.shot,
-                                         luminaires.count, luminaires.samples.size()), why});
+        decisions.push_back(
+            {fmt::format("first shot: {} of {} luminaires, {} light samples", luminaires.shot,
+                         luminaires.count, luminaires.samples.size()),
+             why});
     else
-        decisions.push_back({"no first shot", choice == FirstShot::off
-                                                  ? "asked for"
-                                                  : fmt::format("every luminaire is large (up to {:.0f} % of the surface): cheaper in the iteration",
-                                                                100.0 * luminaires.largest_share)});
+        decisions.push_back(
+            {"no first shot", choice == FirstShot::off
+                                  ? "asked for"
+                                  : fmt::format("every luminaire is large (up to {:.0f} % of the "
+                                                "surface): cheaper in the iteration",
+                                                100.0 * luminaires.largest_share)});
 }
 
 void note_decisions(const Solution& s, Monitor& monitor) {
@@ -159,7 +174,8 @@ void record_settings(const BakeOptions& o, Solution& s) {
 
 }  // namespace
 
-Solution bake(const Scene& scene, const BakeOptions& options, const Workers& workers, Monitor& monitor, RunRecord* run) {
+Solution bake(const Scene& scene, const BakeOptions& options, const Workers& workers,
+              Monitor& monitor, RunRecord* run) {
     StopWatch watch(run);
     Solution s;
     s.seed = options.seed;
@@ -176,7 +192,8 @@ Solution bake(const Scene& scene, const BakeOptions& options, const Workers& wor
     light.seed = options.seed;
     const Luminaires luminaires = sample_luminaires(s.surface, light);
     decide_first_shot(luminaires, light.first_shot, s.decisions);
-    s.direct = shoot_direct_light(s.surface, s.patches, luminaires, options.hemicube_resolution, workers, monitor);
+    s.direct = shoot_direct_light(s.surface, s.patches, luminaires, options.hemicube_resolution,
+                                  workers, monitor);
     s.direct_irradiance = direct_irradiance(s.direct, s.patches.patch_count());
     s.interrupted = monitor.stop_requested();
     watch.lap("first shot");

@@ -9,8 +9,11 @@ namespace transillum {
 
 SolutionDifference compare_solutions(const Solution& a, const Solution& b) {
     if (a.scene_hash != b.scene_hash)
-        throw InputError("compare", fmt::format("solutions of different scenes (hash {} and {}); accepted: two bakes of "
-                                                "one scene with one --max-albedo and --sides", a.scene_hash, b.scene_hash));
+        throw InputError(
+            "compare",
+            fmt::format("solutions of different scenes (hash {} and {}); accepted: two bakes of "
+                        "one scene with one --max-albedo and --sides",
+                        a.scene_hash, b.scene_hash));
     if (a.patches.patch_count() != b.patches.patch_count())
         throw InputError("compare", fmt::format("{} and {} patches; accepted: the same subdivision",
                                                 a.patches.patch_count(), b.patches.patch_count()));
@@ -18,9 +21,12 @@ SolutionDifference compare_solutions(const Solution& a, const Solution& b) {
     double area = 0.0, mean_a = 0.0, mean_b = 0.0, square = 0.0, largest = 0.0;
     for (std::uint32_t p = 0; p < a.patches.patch_count(); ++p) {
         if (!a.reflects(p) || (a.coverage[p] == 0.0f && b.coverage[p] == 0.0f)) continue;
-        const double w = leaf_area(a.surface, a.patches, a.patches.root_of_leaf[a.patches.leaf_of_patch(p)]);
-        const double x = luminance(SpectrumSum(a.direct_irradiance[p]) + SpectrumSum(a.indirect_irradiance[p]));
-        const double y = luminance(SpectrumSum(b.direct_irradiance[p]) + SpectrumSum(b.indirect_irradiance[p]));
+        const double w =
+            leaf_area(a.surface, a.patches, a.patches.root_of_leaf[a.patches.leaf_of_patch(p)]);
+        const double x =
+            luminance(SpectrumSum(a.direct_irradiance[p]) + SpectrumSum(a.indirect_irradiance[p]));
+        const double y =
+            luminance(SpectrumSum(b.direct_irradiance[p]) + SpectrumSum(b.indirect_irradiance[p]));
         area += w;
         mean_a += w * x;
         mean_b += w * y;

@@ -12,7 +12,8 @@ namespace transillum {
 
 namespace {
 
-/// Position and normal of a root side, so scaled that a normal turned around is as far as the scene is wide.
+/// Position and normal of a root side, so scaled that a normal turned around is as far as the scene
+/// is wide.
 using Feature = std::array<double, 6>;
 
 struct RootSide {
@@ -61,7 +62,8 @@ std::vector<RootSide> root_sides(const SurfaceMesh& mesh) {
     std::vector<RootSide> sides;
     for (std::uint32_t r = 0; r < mesh.triangles.size(); ++r) {
         const auto& v = mesh.triangles[r].vertices;
-        const glm::dvec3 centre = (mesh.positions[v[0]] + mesh.positions[v[1]] + mesh.positions[v[2]]) / 3.0;
+        const glm::dvec3 centre =
+            (mesh.positions[v[0]] + mesh.positions[v[1]] + mesh.positions[v[2]]) / 3.0;
         const glm::dvec3 p = (centre - low) / size;
         const double area = area_of(mesh, r);
         for (const std::uint32_t back : {0u, 1u}) {
@@ -78,13 +80,14 @@ Clusters make_clusters(const SurfaceMesh& mesh, const PatchHierarchy& patches) {
     std::vector<RootSide> sides = root_sides(mesh);
     std::vector<Group> groups{measure(sides)};
     while (groups.size() < most_clusters) {
-        const auto widest = std::max_element(groups.begin(), groups.end(),
-                                             [](const Group& a, const Group& b) { return a.priority < b.priority; });
+        const auto widest = std::max_element(
+            groups.begin(), groups.end(),
+            [](const Group& a, const Group& b) { return a.priority < b.priority; });
         if (widest->priority <= 0.0) break;
         const Group whole = *widest;
-        const auto split = std::stable_partition(whole.members.begin(), whole.members.end(), [&](const RootSide& s) {
-            return s.feature[whole.axis] < whole.middle;
-        });
+        const auto split = std::stable_partition(
+            whole.members.begin(), whole.members.end(),
+            [&](const RootSide& s) { return s.feature[whole.axis] < whole.middle; });
         const auto first = static_cast<std::size_t>(split - whole.members.begin());
         if (first == 0 || first == whole.members.size()) {  // equal but for rounding
             widest->priority = 0.0;
@@ -94,12 +97,14 @@ Clusters make_clusters(const SurfaceMesh& mesh, const PatchHierarchy& patches) {
         groups.push_back(measure(whole.members.subspan(first)));
     }
 
-    Clusters clusters{static_cast<std::uint32_t>(groups.size()), std::vector<std::uint8_t>(patches.patch_count() + 1)};
+    Clusters clusters{static_cast<std::uint32_t>(groups.size()),
+                      std::vector<std::uint8_t>(patches.patch_count() + 1)};
     for (std::uint32_t g = 0; g < groups.size(); ++g)
         for (const RootSide& s : groups[g].members) {
             const RootPatches& root = patches.roots[s.id / 2];
             const std::uint32_t first = root.first_leaf + (s.id % 2 ? patches.leaf_count : 0);
-            std::fill_n(clusters.of_patch.begin() + first, std::size_t{1} << (2 * root.level), static_cast<std::uint8_t>(g));
+            std::fill_n(clusters.of_patch.begin() + first, std::size_t{1} << (2 * root.level),
+                        static_cast<std::uint8_t>(g));
         }
     clusters.of_patch.back() = static_cast<std::uint8_t>(clusters.count);
     return clusters;

@@ -16,8 +16,9 @@ struct Clusters {
     std::vector<std::uint8_t> of_patch;  ///< one a patch, then `count` for the environment
 };
 
-/// Splits all root sides, again and again where area times spread is largest, at the middle of their widest extent in
-/// position (relative to the scene) and normal: walls of different rooms, and the sides of a wall, come apart.
+/// Splits all root sides, again and again where area times spread is largest, at the middle of
+/// their widest extent in position (relative to the scene) and normal: walls of different rooms,
+/// and the sides of a wall, come apart.
 [[nodiscard]] Clusters make_clusters(const SurfaceMesh& mesh, const PatchHierarchy& patches);
 
 }  // namespace transillum

@@ -18,13 +18,14 @@ constexpr double largest_factor = 32.0;
 /// Means over a cluster's patches, weighted with their coverage.
 struct ClusterState {
     double coverage = 0.0;
-    SpectrumSum incoming{0.0};   ///< sums until divided by coverage
+    SpectrumSum incoming{0.0};  ///< sums until divided by coverage
     SpectrumSum reflected{0.0};
     SpectrumSum source{0.0};
     SpectrumSum albedo{0.0};
 };
 
-std::vector<ClusterState> measure_clusters(const FiniteElementComponent& component, const Clusters& clusters) {
+std::vector<ClusterState> measure_clusters(const FiniteElementComponent& component,
+                                           const Clusters& clusters) {
     std::vector<ClusterState> states(clusters.count);
     const PatchSources& sources = component.sources();
     for (std::uint32_t p = 0; p < component.patch_count(); ++p) {
@@ -41,9 +42,9 @@ std::vector<ClusterState> measure_clusters(const FiniteElementComponent& compone
     return states;
 }
 
-/// Square system with a unit diagonal less something non-negative, columns summing to at least 0: elimination
-/// without pivoting is stable. Row-major, augmented with the right-hand side.
-/// \returns false when singular: a pivot is lost to cancellation.
+/// Square system with a unit diagonal less something non-negative, columns summing to at least 0:
+/// elimination without pivoting is stable. Row-major, augmented with the right-hand side. \returns
+/// false when singular: a pivot is lost to cancellation.
 bool solve(std::vector<double>& a, std::uint32_t n, std::vector<double>& x) {
     const std::uint32_t width = n + 1;
     const double least = 64.0 * n * std::numeric_limits<double>::epsilon();
@@ -65,8 +66,9 @@ bool solve(std::vector<double>& a, std::uint32_t n, std::vector<double>& x) {
 }
 
 /// Mean incoming radiance of every cluster in balance, in one channel.
-std::vector<double> solve_channel(const std::vector<ClusterState>& states, const ClusterTransfer& transfer,
-                                  BalanceShape shape, int channel) {
+std::vector<double> solve_channel(const std::vector<ClusterState>& states,
+                                  const ClusterTransfer& transfer, BalanceShape shape,
+                                  int channel) {
     const std::uint32_t n = transfer.count;
     std::vector<double> sent(n), seen(n);
     for (std::uint32_t j = 0; j < n; ++j)
@@ -77,7 +79,8 @@ std::vector<double> solve_channel(const std::vector<ClusterState>& states, const
     // Share of j's flux that reaches i; a dark cluster's by its fragments.
     const auto share = [&](std::uint32_t i, std::uint32_t j) {
         if (seen[j] == 0.0) return 0.0;
-        if (shape == BalanceShape::flat || sent[j] == 0.0) return transfer.at(i, j).coverage / seen[j];
+        if (shape == BalanceShape::flat || sent[j] == 0.0)
+            return transfer.at(i, j).coverage / seen[j];
         return transfer.at(i, j).radiance[channel] / sent[j];
     };
     std::vector<double> matrix(std::size_t{n} * (n + 1)), flux;
@@ -87,12 +90,15 @@ std::vector<double> solve_channel(const std::vector<ClusterState>& states, const
         const double albedo = s.coverage == 0.0 ? 0.0
                               : flat            ? s.albedo[channel] / s.coverage
                                                 : s.reflected[channel] / s.incoming[channel];
-        for (std::uint32_t j = 0; j < n; ++j) matrix[i * (n + 1) + j] = (i == j ? 1.0 : 0.0) - albedo * share(i, j);
-        matrix[i * (n + 1) + n] = s.coverage == 0.0 ? 0.0 : seen[i] * s.source[channel] / s.coverage;
+        for (std::uint32_t j = 0; j < n; ++j)
+            matrix[i * (n + 1) + j] = (i == j ? 1.0 : 0.0) - albedo * share(i, j);
+        matrix[i * (n + 1) + n] =
+            s.coverage == 0.0 ? 0.0 : seen[i] * s.source[channel] / s.coverage;
     }
     if (!solve(matrix, n, flux))
-        throw UsageError("max albedo: no surface absorbs light of channel " + std::to_string(channel) +
-                         " and none leaves the scene, so it would never fade; accepted: a lower maximum");
+        throw UsageError(
+            "max albedo: no surface absorbs light of channel " + std::to_string(channel) +
+            " and none leaves the scene, so it would never fade; accepted: a lower maximum");
     std::vector<double> incoming(n);
     for (std::uint32_t i = 0; i < n; ++i) {
         for (std::uint32_t j = 0; j < n; ++j) incoming[i] += share(i, j) * flux[j];
@@ -103,20 +109,24 @@ std::vector<double> solve_channel(const std::vector<ClusterState>& states, const
 
 }  // namespace
 
-void balance_energy(FiniteElementComponent& component, const Clusters& clusters, const ClusterTransfer& transfer,
-                    BalanceShape shape) {
+void balance_energy(FiniteElementComponent& component, const Clusters& clusters,
+                    const ClusterTransfer& transfer, BalanceShape shape) {
     const std::vector<ClusterState> states = measure_clusters(component, clusters);
     std::vector<double> fragments(clusters.count);
     for (std::uint32_t j = 0; j < clusters.count; ++j)
-        for (std::uint32_t i = 0; i <= clusters.count; ++i) fragments[j] += transfer.at(i, j).coverage;
+        for (std::uint32_t i = 0; i <= clusters.count; ++i)
+            fragments[j] += transfer.at(i, j).coverage;
     std::vector<SpectrumSum> target(clusters.count), factor(clusters.count, SpectrumSum(1.0));
     for (int channel = 0; channel < channel_count; ++channel) {
         const std::vector<double> incoming = solve_channel(states, transfer, shape, channel);
         for (std::uint32_t i = 0; i < clusters.count; ++i) {
             target[i][channel] = incoming[i];
             if (fragments[i] < least_fragments) continue;
-            const double now = states[i].coverage > 0.0 ? states[i].incoming[channel] / states[i].coverage : 0.0;
-            if (now > 0.0 && incoming[i] > 0.0) factor[i][channel] = std::clamp(incoming[i] / now, 1.0 / largest_factor, largest_factor);
+            const double now =
+                states[i].coverage > 0.0 ? states[i].incoming[channel] / states[i].coverage : 0.0;
+            if (now > 0.0 && incoming[i] > 0.0)
+                factor[i][channel] =
+                    std::clamp(incoming[i] / now, 1.0 / largest_factor, largest_factor);
         }
     }
     for (std::uint32_t p = 0; p < component.patch_count(); ++p) {

@@ -9,9 +9,11 @@ namespace transillum {
 
 namespace {
 
-/// Every fourth row of pixels, from a random one, suffices for the few numbers that clusters exchange.
+/// Every fourth row of pixels, from a random one, suffices for the few numbers that clusters
+/// exchange.
 constexpr int cluster_row_stride = 4;
-/// Fragments between a fetch and its use: long enough for main memory, short enough to stay in the cache.
+/// Fragments between a fetch and its use: long enough for main memory, short enough to stay in the
+/// cache.
 constexpr std::ptrdiff_t fetch_distance = 24;
 /// Cluster sums collect far more fragments than a patch does: they drop this many low bits.
 constexpr int cluster_shift = 8;
@@ -19,13 +21,15 @@ constexpr int cluster_shift = 8;
 FixedRadiance shifted(const FixedRadiance& r) {
     using Unsigned = std::uint64_t __attribute__((vector_size(32)));
     // Radiance is not negative, and the count is one.
-    const Unsigned bits = (reinterpret_cast<const Unsigned&>(r.lane) >> cluster_shift) | Unsigned{0, 0, 0, 1};
+    const Unsigned bits =
+        (reinterpret_cast<const Unsigned&>(r.lane) >> cluster_shift) | Unsigned{0, 0, 0, 1};
     return {reinterpret_cast<const FixedRadiance::Lanes&>(bits)};
 }
 
 /// Both sides of a leaf share a cache line: the front at odd numbers, the back at even ones.
 std::uint32_t upper_slot(Fragment f) {
-    return std::rotl(static_cast<std::uint32_t>(f), 1);  // leaf * 2 + whether the front faces forwards
+    return std::rotl(static_cast<std::uint32_t>(f),
+                     1);  // leaf * 2 + whether the front faces forwards
 }
 
 std::uint32_t lower_slot(Fragment f) {
@@ -42,13 +46,15 @@ Exchange::Exchange(std::uint32_t leaf_count, const Clusters& clusters, const Wor
       partials_(workers.count()) {
     if (cluster_count_ > 0) {
         cluster_.resize(radiance_.size());
-        for (std::uint32_t p = 0; p < clusters.of_patch.size(); ++p) cluster_[slot_of(p)] = clusters.of_patch[p];
+        for (std::uint32_t p = 0; p < clusters.of_patch.size(); ++p)
+            cluster_[slot_of(p)] = clusters.of_patch[p];
     }
     for (Partial& p : partials_) {
         p.received.resize(radiance_.size());
         p.transfer.resize(std::size_t{cluster_count_ + 1} * (cluster_count_ + 1));
     }
-    radiance_.back().lane = FixedRadiance::Lanes{0, 0, 0, 1};  // the environment is dark, and is seen
+    radiance_.back().lane =
+        FixedRadiance::Lanes{0, 0, 0, 1};  // the environment is dark, and is seen
 }
 
 void Exchange::set_radiance(const std::vector<Spectrum>& radiance, double most_fragments) {
@@ -63,7 +69,8 @@ void Exchange::set_radiance(const std::vector<Spectrum>& radiance, double most_f
     workers_.for_ranges(radiance.size(), 16384, [&](std::size_t begin, std::size_t end, int) {
         for (std::size_t i = begin; i < end; ++i) {
             const auto fixed = [&](float x) { return std::llrint(x * scale); };
-            radiance_[slot_of(static_cast<std::uint32_t>(i))].lane = FixedRadiance::Lanes{fixed(radiance[i].x), fixed(radiance[i].y), fixed(radiance[i].z), 1};
+            radiance_[slot_of(static_cast<std::uint32_t>(i))].lane = FixedRadiance::Lanes{
+                fixed(radiance[i].x), fixed(radiance[i].y), fixed(radiance[i].z), 1};
         }
     });
 }
@@ -88,7 +95,8 @@ void Exchange::exchange_tile(const TileLists& tile, int cluster_row, Partial& pa
         __builtin_prefetch(&received[slot], 1);
     };
     for (int row = 0; row < tile.height; ++row) {
-        const bool sampled = cluster_row >= 0 && (tile.row0 + row) % cluster_row_stride == cluster_row;
+        const bool sampled =
+            cluster_row >= 0 && (tile.row0 + row) % cluster_row_stride == cluster_row;
         for (int i = row * tile.width; i < (row + 1) * tile.width; ++i) {
             const Fragment* f = tile.fragments.data() + tile.first[i];
             const Fragment* const end = tile.fragments.data() + tile.first[i + 1];

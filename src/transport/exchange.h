@@ -1,7 +1,9 @@
-/// Exchange of radiance between facing neighbours of the transillumination buffer (paper §3, both ways).
+/// Exchange of radiance between facing neighbours of the transillumination buffer (paper §3, both
+/// ways).
 ///
-/// Radiance travels as fixed-point integers, scaled by a power of two, so that sums are exact and do not
-/// depend on the order or the thread in which fragments come; and scaling every source by two changes no bit.
+/// Radiance travels as fixed-point integers, scaled by a power of two, so that sums are exact and
+/// do not depend on the order or the thread in which fragments come; and scaling every source by
+/// two changes no bit.
 #pragma once
 
 #include "transport/clusters.h"
@@ -14,7 +16,8 @@
 
 namespace transillum {
 
-/// Red, green, blue and a count of one, so that a sum carries its coverage along. Half a cache line.
+/// Red, green, blue and a count of one, so that a sum carries its coverage along. Half a cache
+/// line.
 struct alignas(32) FixedRadiance {
     using Lanes = std::int64_t __attribute__((vector_size(32)));
     Lanes lane{};
@@ -30,8 +33,8 @@ struct Received {
     double coverage = 0.0;
 };
 
-/// What clusters send each other, in units of radiance times fragments. Senders and receivers are numbered
-/// as in Clusters; receiver `count` is everything outside the scene.
+/// What clusters send each other, in units of radiance times fragments. Senders and receivers are
+/// numbered as in Clusters; receiver `count` is everything outside the scene.
 struct ClusterTransfer {
     explicit ClusterTransfer(std::uint32_t cluster_count)
         : count(cluster_count), entries(std::size_t{cluster_count + 1} * cluster_count) {}
@@ -44,22 +47,27 @@ struct ClusterTransfer {
     }
     std::uint32_t count;
     std::vector<Received> entries;
-    [[nodiscard]] Received& at(std::uint32_t receiver, std::uint32_t sender) { return entries[std::size_t{receiver} * count + sender]; }
-    [[nodiscard]] const Received& at(std::uint32_t receiver, std::uint32_t sender) const { return entries[std::size_t{receiver} * count + sender]; }
+    [[nodiscard]] Received& at(std::uint32_t receiver, std::uint32_t sender) {
+        return entries[std::size_t{receiver} * count + sender];
+    }
+    [[nodiscard]] const Received& at(std::uint32_t receiver, std::uint32_t sender) const {
+        return entries[std::size_t{receiver} * count + sender];
+    }
 };
 
 class Exchange {
 public:
     Exchange(std::uint32_t leaf_count, const Clusters& clusters, const Workers& workers);
 
-    /// Radiance that every patch sends from now on. \param most_fragments that a patch may receive until the next `collect`.
+    /// Radiance that every patch sends from now on. \param most_fragments that a patch may receive
+    /// until the next `collect`.
     void set_radiance(const std::vector<Spectrum>& radiance, double most_fragments);
 
     /// Transfers the radiance of all patches along one bundle, both ways.
     void transfer(TransilluminationBuffer& buffer, const Bundle& bundle);
 
-    /// Takes out what arrived at a patch since it was last taken; patch 2 * leaf_count is the environment.
-    /// Different patches may be taken at once.
+    /// Takes out what arrived at a patch since it was last taken; patch 2 * leaf_count is the
+    /// environment. Different patches may be taken at once.
     [[nodiscard]] Received take(std::uint32_t patch) {
         const std::uint32_t slot = slot_of(patch);
         FixedRadiance sum;
@@ -69,7 +77,8 @@ public:
         }
         return in_units(sum, unit_);
     }
-    /// Adds what clusters sent each other since the last call, and what left the scene is receiver `count`.
+    /// Adds what clusters sent each other since the last call, and what left the scene is receiver
+    /// `count`.
     void collect(ClusterTransfer& sum);
 
     /// Exchanged so far.
@@ -88,7 +97,8 @@ private:
         return patch < leaf_count_ ? 2 * patch + 1 : 2 * (patch - leaf_count_);
     }
     static Received in_units(const FixedRadiance& sum, double unit) {
-        return {SpectrumSum(sum.lane[0], sum.lane[1], sum.lane[2]) * unit, static_cast<double>(sum.lane[3])};
+        return {SpectrumSum(sum.lane[0], sum.lane[1], sum.lane[2]) * unit,
+                static_cast<double>(sum.lane[3])};
     }
 
     std::uint32_t leaf_count_, cluster_count_;

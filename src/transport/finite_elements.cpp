@@ -27,9 +27,13 @@ void add(PatchSums& s, const Received& block, double weight) {
 }  // namespace
 
 FiniteElementComponent::FiniteElementComponent(const PatchSources& sources, const Workers& workers)
-    : sources_(sources), workers_(workers), sums_(sources.albedo.size()), radiance_(sources.albedo.size()) {}
+    : sources_(sources),
+      workers_(workers),
+      sums_(sources.albedo.size()),
+      radiance_(sources.albedo.size()) {}
 
-void FiniteElementComponent::average_in(Exchange& exchange, std::uint64_t directions, double weight) {
+void FiniteElementComponent::average_in(Exchange& exchange, std::uint64_t directions,
+                                        double weight) {
     workers_.for_ranges(sums_.size(), grain, [&](std::size_t begin, std::size_t end, int) {
         for (std::size_t patch = begin; patch < end; ++patch)
             add(sums_[patch], exchange.take(static_cast<std::uint32_t>(patch)), weight);
@@ -97,14 +101,17 @@ SpectrumSum FiniteElementComponent::incoming_variance(std::uint32_t patch) const
         return SpectrumSum(std::numeric_limits<double>::quiet_NaN());
     // Linearised variance of a ratio of sums: sum of (w C)^2 (x_b - x)^2 over (sum of w C)^2.
     const SpectrumSum x = incoming(patch);
-    const SpectrumSum spread = s.received_squared - 2.0 * x * s.received_coverage + x * x * s.coverage_squared;
-    return glm::max(spread, SpectrumSum(0.0)) / (s.coverage * s.coverage) * (blocks_ / (blocks_ - 1.0));
+    const SpectrumSum spread =
+        s.received_squared - 2.0 * x * s.received_coverage + x * x * s.coverage_squared;
+    return glm::max(spread, SpectrumSum(0.0)) / (s.coverage * s.coverage) *
+           (blocks_ / (blocks_ - 1.0));
 }
 
 const std::vector<Spectrum>& FiniteElementComponent::update_radiance() {
     workers_.for_ranges(sums_.size(), grain, [&](std::size_t begin, std::size_t end, int) {
         for (std::size_t i = begin; i < end; ++i) {
-            const SpectrumSum reflected = SpectrumSum(sources_.albedo[i]) * incoming(static_cast<std::uint32_t>(i));
+            const SpectrumSum reflected =
+                SpectrumSum(sources_.albedo[i]) * incoming(static_cast<std::uint32_t>(i));
             radiance_[i] = sources_.emission[i] + sources_.direct[i] + Spectrum(reflected);
         }
     });

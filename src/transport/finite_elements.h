@@ -1,7 +1,8 @@
 /// The finite-element component: one averaged estimate a patch (paper eq. 4 and 5).
 ///
-/// Ratio estimator (design 4.3): both what arrived and how often a patch was seen are summed; their ratio, times
-/// the albedo, is a convex combination of other radiances times an albedo, so energy can't be created.
+/// Ratio estimator (design 4.3): both what arrived and how often a patch was seen are summed; their
+/// ratio, times the albedo, is a convex combination of other radiances times an albedo, so energy
+/// can't be created.
 #pragma once
 
 #include "transport/exchange.h"
@@ -14,11 +15,12 @@
 namespace transillum {
 
 /// Sums of one patch. Blocks of directions come with weight w.
-/// Double: blocks differ in size by orders of magnitude, and the error is a difference of large sums.
+/// Double: blocks differ in size by orders of magnitude, and the error is a difference of large
+/// sums.
 struct PatchSums {
-    SpectrumSum received{0.0};      ///< sum of w R
-    double coverage = 0.0;          ///< sum of w C
-    double fragments = 0.0;         ///< sum of C over all directions there ever were
+    SpectrumSum received{0.0};  ///< sum of w R
+    double coverage = 0.0;      ///< sum of w C
+    double fragments = 0.0;     ///< sum of C over all directions there ever were
     // For the standard error: sums over blocks of w^2 R^2, w^2 R C and w^2 C^2.
     SpectrumSum received_squared{0.0};
     SpectrumSum received_coverage{0.0};
@@ -31,7 +33,8 @@ public:
 
     /// Takes a block of directions. \param weight of each of its directions in the average.
     void average_in(Exchange& exchange, std::uint64_t directions, double weight);
-    /// Sets what was summed aside, keeping the estimate as the start of a new average, with next to no weight.
+    /// Sets what was summed aside, keeping the estimate as the start of a new average, with next to
+    /// no weight.
     void restart();
     /// Adds what the last restart set aside: a run that ends soon after cannot do without it.
     void recall();
@@ -45,16 +48,21 @@ public:
     [[nodiscard]] double coverage(std::uint32_t patch) const { return sums_[patch].coverage; }
     void scale_incoming(std::uint32_t patch, const SpectrumSum& factor);
     void set_incoming(std::uint32_t patch, const SpectrumSum& incoming);
-    /// Squared standard error of `incoming`, from the spread of the blocks; NaN for fewer than 8 blocks.
+    /// Squared standard error of `incoming`, from the spread of the blocks; NaN for fewer than 8
+    /// blocks.
     [[nodiscard]] SpectrumSum incoming_variance(std::uint32_t patch) const;
 
     /// Outgoing radiance of every patch: emission, first reflection, and albedo times what arrives.
     [[nodiscard]] const std::vector<Spectrum>& update_radiance();
 
     /// Radiance times fragments that left the scene, mean over the directions.
-    [[nodiscard]] SpectrumSum escaped() const { return weights_ > 0.0 ? escaped_ / weights_ : SpectrumSum(0.0); }
+    [[nodiscard]] SpectrumSum escaped() const {
+        return weights_ > 0.0 ? escaped_ / weights_ : SpectrumSum(0.0);
+    }
     [[nodiscard]] double fragments(std::uint32_t patch) const { return sums_[patch].fragments; }
-    [[nodiscard]] std::uint32_t patch_count() const { return static_cast<std::uint32_t>(sums_.size()); }
+    [[nodiscard]] std::uint32_t patch_count() const {
+        return static_cast<std::uint32_t>(sums_.size());
+    }
     [[nodiscard]] const PatchSources& sources() const { return sources_; }
 
 private:

@@ -47,7 +47,8 @@ public:
           workers_(workers),
           monitor_(monitor),
           buffer_(mesh, patches, options.pixel_size),
-          clusters_(options.averaging == Averaging::balanced ? make_clusters(mesh, patches) : Clusters{}),
+          clusters_(options.averaging == Averaging::balanced ? make_clusters(mesh, patches)
+                                                             : Clusters{}),
           transfer_(clusters_.count),
           earlier_transfer_(clusters_.count),
           exchange_(patches.leaf_count, clusters_, workers),
@@ -64,9 +65,12 @@ public:
             exchange_.set_radiance(component_.update_radiance(), most_fragments(block));
             std::uint64_t in_block = 0;
             do {
-                exchange_.transfer(buffer_, sample_bundle(static_cast<std::uint32_t>(done_ + in_block), options_.seed));
+                exchange_.transfer(
+                    buffer_,
+                    sample_bundle(static_cast<std::uint32_t>(done_ + in_block), options_.seed));
                 ++in_block;
-                monitor_.progress({"transport", done_ + in_block, options_.iterations, relative_error_});
+                monitor_.progress(
+                    {"transport", done_ + in_block, options_.iterations, relative_error_});
             } while (in_block < block && done_ + in_block < options_.iterations && !stopped());
             end_block(in_block);
         }
@@ -76,7 +80,8 @@ public:
 private:
     /// A patch is a planar triangle: it covers a pixel at most once a direction.
     double most_fragments(std::uint64_t block) const {
-        const double diagonal_pixels = std::min(16384.0, scene_diagonal() / buffer_.pixel_size() + 4.0);
+        const double diagonal_pixels =
+            std::min(16384.0, scene_diagonal() / buffer_.pixel_size() + 4.0);
         // The environment is met twice a pixel.
         return 2.0 * diagonal_pixels * diagonal_pixels * static_cast<double>(block);
     }
@@ -109,7 +114,8 @@ private:
     }
 
     bool balances_at(std::uint64_t done) const {
-        return options_.averaging == Averaging::balanced && done >= first_balance && std::has_single_bit(done);
+        return options_.averaging == Averaging::balanced && done >= first_balance &&
+               std::has_single_bit(done);
     }
 
     void recall() {
@@ -138,7 +144,8 @@ private:
         workers_.for_ranges(partial.size(), 1, [&](std::size_t begin, std::size_t end, int) {
             for (std::size_t r = begin; r < end; ++r) {
                 const auto first = static_cast<std::uint32_t>(r * range);
-                for (std::uint32_t p = first; p < std::min(first + range, component_.patch_count()); ++p) {
+                for (std::uint32_t p = first; p < std::min(first + range, component_.patch_count());
+                     ++p) {
                     const double area = area_of_patch(p);
                     const bool seen = component_.coverage(p) > 0.0;
                     (seen ? partial[r].seen : partial[r].unseen) += area;
@@ -159,7 +166,8 @@ private:
         if (all.mean == 0.0) return 0.0;
         // Of a patch that no direction has met nothing is known: an error as large as the mean.
         const double mean = all.mean / all.seen;
-        return std::sqrt((all.variance + all.unseen * mean * mean) / (all.seen + all.unseen)) / mean;
+        return std::sqrt((all.variance + all.unseen * mean * mean) / (all.seen + all.unseen)) /
+               mean;
     }
 
     double area_of_patch(std::uint32_t patch) const {
@@ -174,10 +182,12 @@ private:
     }
 
     TransportResult finish() {
-        // Within the phase after a restart there is too little to do without what came before; and between powers of two
-        // the last directions are not in balance yet.
+        // Within the phase after a restart there is too little to do without what came before; and
+        // between powers of two the last directions are not in balance yet.
         if (!balances_at(done_)) recall();
-        if (options_.averaging == Averaging::balanced && done_ > first_balance && !balances_at(done_)) balance();
+        if (options_.averaging == Averaging::balanced && done_ > first_balance &&
+            !balances_at(done_))
+            balance();
         TransportResult result;
         const std::uint32_t n = component_.patch_count();
         result.irradiance.resize(n);
@@ -186,8 +196,9 @@ private:
         for (std::uint32_t p = 0; p < n; ++p) {
             result.irradiance[p] = Spectrum(std::numbers::pi * component_.incoming(p));
             const SpectrumSum variance = component_.incoming_variance(p);
-            result.standard_error[p] =
-                is_finite(variance) ? Spectrum(std::numbers::pi * glm::sqrt(variance)) : result.irradiance[p];
+            result.standard_error[p] = is_finite(variance)
+                                           ? Spectrum(std::numbers::pi * glm::sqrt(variance))
+                                           : result.irradiance[p];
             result.coverage[p] = static_cast<float>(component_.fragments(p));
         }
         result.iterations = done_;
@@ -220,10 +231,12 @@ private:
 
 }  // namespace
 
-TransportResult iterate(const SurfaceMesh& mesh, const PatchHierarchy& patches, const PatchSources& sources,
-                        const IterationOptions& options, const Workers& workers, Monitor& monitor) {
+TransportResult iterate(const SurfaceMesh& mesh, const PatchHierarchy& patches,
+                        const PatchSources& sources, const IterationOptions& options,
+                        const Workers& workers, Monitor& monitor) {
     if (options.iterations > std::numeric_limits<std::uint32_t>::max())
-        throw UsageError("iterations " + std::to_string(options.iterations) + "; accepted: below 2^32");
+        throw UsageError("iterations " + std::to_string(options.iterations) +
+                         "; accepted: below 2^32");
     return Iteration(mesh, patches, sources, options, workers, monitor).run();
 }
 

@@ -15,10 +15,10 @@ namespace transillum {
 /// A face at distance 1; pixel (x, y) looks along forward + s * right + t * up.
 struct Hemicube::Face {
     glm::dvec3 right, up, forward;
-    glm::dvec3 zenith;   ///< the hemicube's axis
-    int width, height;   ///< [pixels]
-    double bottom;       ///< t of the lower edge: -1, or 0 where the horizon is
-    double pixel;        ///< edge of a pixel
+    glm::dvec3 zenith;  ///< the hemicube's axis
+    int width, height;  ///< [pixels]
+    double bottom;      ///< t of the lower edge: -1, or 0 where the horizon is
+    double pixel;       ///< edge of a pixel
 
     [[nodiscard]] glm::dvec3 towards(int x, int y) const {
         return forward + right * ((x + 0.5) * pixel - 1.0) + up * ((y + 0.5) * pixel + bottom);
@@ -70,9 +70,14 @@ Outline clip_to_guard_band(Outline outline, double nearest) {
 }  // namespace
 
 Hemicube::Hemicube(const SurfaceMesh& mesh, const PatchHierarchy& patches, int resolution)
-    : mesh_(mesh), patches_(patches), resolution_(resolution), sums_(patches.patch_count()), views_(patches.patch_count()) {
+    : mesh_(mesh),
+      patches_(patches),
+      resolution_(resolution),
+      sums_(patches.patch_count()),
+      views_(patches.patch_count()) {
     if (resolution < 16 || resolution > 4096 || resolution % 2 != 0)
-        throw UsageError("hemicube resolution " + std::to_string(resolution) + "; accepted: 16 to 4096, even");
+        throw UsageError("hemicube resolution " + std::to_string(resolution) +
+                         "; accepted: 16 to 4096, even");
     pixels_.resize(5);
 }
 
@@ -91,7 +96,8 @@ const std::vector<PatchView>& Hemicube::look(const glm::dvec3& position, const g
               {x, z, -y, z, resolution_, half, 0.0, pixel}};
     std::fill(sums_.begin(), sums_.end(), PatchSums{});
     for (std::size_t i = 0; i < faces_.size(); ++i) {
-        pixels_[i].assign(std::size_t{1} * faces_[i].width * faces_[i].height, {std::numeric_limits<float>::infinity(), nothing});
+        pixels_[i].assign(std::size_t{1} * faces_[i].width * faces_[i].height,
+                          {std::numeric_limits<float>::infinity(), nothing});
         draw_face(faces_[i]);
     }
     for (const Face& face : faces_) add_seen(face);
@@ -111,9 +117,11 @@ void Hemicube::draw_root(const Face& face, std::uint32_t root) {
     std::array<glm::dvec3, 3> corner;
     for (int i = 0; i < 3; ++i) {
         corner[i] = mesh_.positions[vertices[i]] - position_;
-        outline.p[i] = {glm::dot(corner[i], face.right), glm::dot(corner[i], face.up), glm::dot(corner[i], face.forward)};
+        outline.p[i] = {glm::dot(corner[i], face.right), glm::dot(corner[i], face.up),
+                        glm::dot(corner[i], face.forward)};
     }
-    const double size = std::max({std::abs(outline.p[0].z), std::abs(outline.p[1].z), std::abs(outline.p[2].z)});
+    const double size =
+        std::max({std::abs(outline.p[0].z), std::abs(outline.p[1].z), std::abs(outline.p[2].z)});
     outline = clip_to_guard_band(outline, size * 1e-9);
     if (outline.count < 3) return;
 
@@ -125,7 +133,8 @@ void Hemicube::draw_root(const Face& face, std::uint32_t root) {
     if (std::abs(height) <= rounding * glm::length(area_normal) * glm::length(corner[0])) return;
     const glm::dvec3 normal = glm::normalize(area_normal);
     const double per_area = 1.0 / glm::dot(area_normal, area_normal);
-    const glm::dvec3 to_b1 = glm::cross(e2, area_normal) * per_area, to_b2 = glm::cross(area_normal, e1) * per_area;
+    const glm::dvec3 to_b1 = glm::cross(e2, area_normal) * per_area,
+                     to_b2 = glm::cross(area_normal, e1) * per_area;
     const bool back = height > 0.0;
     const RootPatches& patches = patches_.roots[root];
     const std::uint32_t first_patch = patches.first_leaf + (back ? patches_.leaf_count : 0);
@@ -138,13 +147,15 @@ void Hemicube::draw_root(const Face& face, std::uint32_t root) {
             const double t = height / facing;
             if (!(t > 0.0)) continue;
             const glm::dvec3 hit = d * t - corner[0];
-            const std::uint32_t patch = first_patch + leaf_in_root(patches.level, static_cast<float>(glm::dot(hit, to_b1)),
-                                                                   static_cast<float>(glm::dot(hit, to_b2)));
+            const std::uint32_t patch =
+                first_patch + leaf_in_root(patches.level, static_cast<float>(glm::dot(hit, to_b1)),
+                                           static_cast<float>(glm::dot(hit, to_b2)));
             const double squared = glm::dot(d, d);
             PatchSums& s = sums_[patch];
             ++s.pixels;
             s.covered += face.weight(d);
-            // dA = r^2 d(omega) / cos' with r = t |d|, d(omega) = pixel^2 / |d|^3, cos' = |d.n| / |d|
+            // dA = r^2 d(omega) / cos' with r = t |d|, d(omega) = pixel^2 / |d|^3, cos' = |d.n| /
+            // |d|
             s.area += face.pixel * face.pixel * t * t / std::abs(glm::dot(d, normal));
             Pixel& pixel = pixels[static_cast<std::size_t>(y) * face.width + x];
             const auto distance = static_cast<float>(t * std::sqrt(squared));
@@ -156,8 +167,10 @@ void Hemicube::draw_root(const Face& face, std::uint32_t root) {
     for (int i = 0; i < outline.count; ++i) {
         const glm::dvec3& p = outline.p[i];
         // Pixel centres lie at multiples of 256.
-        fixed[i] = {static_cast<std::int32_t>(std::lrint((p.x / p.z + 1.0) * unit)) - (1 << (sub_pixel_bits - 1)),
-                    static_cast<std::int32_t>(std::lrint((p.y / p.z - face.bottom) * unit)) - (1 << (sub_pixel_bits - 1))};
+        fixed[i] = {static_cast<std::int32_t>(std::lrint((p.x / p.z + 1.0) * unit)) -
+                        (1 << (sub_pixel_bits - 1)),
+                    static_cast<std::int32_t>(std::lrint((p.y / p.z - face.bottom) * unit)) -
+                        (1 << (sub_pixel_bits - 1))};
     }
     for (int i = 1; i + 1 < outline.count; ++i) {
         std::array<FixedPoint, 3> triangle{fixed[0], fixed[i], fixed[i + 1]};
@@ -166,7 +179,10 @@ void Hemicube::draw_root(const Face& face, std::uint32_t root) {
         if (area < 0) std::swap(triangle[1], triangle[2]);
         for (int y = 0; y < face.height; y += tile_size)
             for (int x = 0; x < face.width; x += tile_size)
-                scan_convert(triangle, {x, y, std::min(x + tile_size, face.width), std::min(y + tile_size, face.height)}, span);
+                scan_convert(triangle,
+                             {x, y, std::min(x + tile_size, face.width),
+                              std::min(y + tile_size, face.height)},
+                             span);
     }
 }
 
@@ -187,25 +203,29 @@ double Hemicube::front_share(std::uint32_t leaf) const {
     const auto corners = leaf_corners(patches_, leaf);
     int below = 0;
     for (int i = 0; i < 3; ++i) {
-        outline.p[i] = point_of_root(mesh_, root, corners[i], patches_.roots[root].level) - position_;
+        outline.p[i] =
+            point_of_root(mesh_, root, corners[i], patches_.roots[root].level) - position_;
         below += glm::dot(outline.p[i], frame_[2]) < 0.0;
     }
     if (below == 0) return 1.0;
     if (below == 3) return 0.0;
     const Outline above = clip(outline, frame_[2], 0.0);
     glm::dvec3 area(0.0);
-    for (int i = 1; i + 1 < above.count; ++i) area += glm::cross(above.p[i] - above.p[0], above.p[i + 1] - above.p[0]);
+    for (int i = 1; i + 1 < above.count; ++i)
+        area += glm::cross(above.p[i] - above.p[0], above.p[i + 1] - above.p[0]);
     return 0.5 * glm::length(area) / leaf_area(mesh_, patches_, root);
 }
 
-/// Flux over the patch's area where there are pixels enough, which keeps the flux; else over the area behind its own
-/// pixels: their errors cancel.
+/// Flux over the patch's area where there are pixels enough, which keeps the flux; else over the
+/// area behind its own pixels: their errors cancel.
 PatchView Hemicube::view_of(const PatchSums& sums, std::uint32_t patch) const {
     const std::uint32_t leaf = patches_.leaf_of_patch(patch);
-    const double kernel = sums.pixels >= enough_pixels
-                              ? sums.covered / leaf_area(mesh_, patches_, patches_.root_of_leaf[leaf])
-                              : sums.covered / sums.area * front_share(leaf);
-    return {static_cast<float>(kernel), static_cast<float>(std::min(1.0, sums.seen / sums.covered))};
+    const double kernel =
+        sums.pixels >= enough_pixels
+            ? sums.covered / leaf_area(mesh_, patches_, patches_.root_of_leaf[leaf])
+            : sums.covered / sums.area * front_share(leaf);
+    return {static_cast<float>(kernel),
+            static_cast<float>(std::min(1.0, sums.seen / sums.covered))};
 }
 
 /// A patch between pixel centres: its centre, looked up in the nearest pixel.
@@ -216,7 +236,8 @@ PatchView Hemicube::view_of_missed(std::uint32_t patch) const {
         centre += point_of_root(mesh_, root, c, patches_.roots[root].level) / 3.0;
     const glm::dvec3 d = centre - position_;
     const double up = glm::dot(d, frame_[2]);
-    const double facing = glm::dot(d, normal_of(mesh_, root)) * (patches_.is_back(patch) ? 1.0 : -1.0);
+    const double facing =
+        glm::dot(d, normal_of(mesh_, root)) * (patches_.is_back(patch) ? 1.0 : -1.0);
     if (up <= rounding * glm::length(d) || facing <= rounding * glm::length(d)) return {};
     for (std::size_t i = 0; i < faces_.size(); ++i) {
         const Face& face = faces_[i];
@@ -225,7 +246,8 @@ PatchView Hemicube::view_of_missed(std::uint32_t patch) const {
         const double x = std::floor((glm::dot(d, face.right) / forward + 1.0) / face.pixel);
         const double y = std::floor((glm::dot(d, face.up) / forward - face.bottom) / face.pixel);
         if (x < 0.0 || y < 0.0 || x >= face.width || y >= face.height) continue;
-        const Pixel& pixel = pixels_[i][static_cast<std::size_t>(y) * face.width + static_cast<std::size_t>(x)];
+        const Pixel& pixel =
+            pixels_[i][static_cast<std::size_t>(y) * face.width + static_cast<std::size_t>(x)];
         const double squared = glm::dot(d, d), distance = std::sqrt(squared);
         // Within a pixel's width of what is seen there.
         const bool seen = distance <= pixel.distance * (1.0 + face.pixel);

@@ -1,7 +1,8 @@
 /// Watertight scan conversion, shared by the transillumination buffer and the hemicube.
 ///
-/// Vertices are snapped to 1/256 of a pixel and edges are evaluated in integers, with the top-left rule:
-/// a pixel centre that lies on the common edge of two triangles belongs to exactly one of them.
+/// Vertices are snapped to 1/256 of a pixel and edges are evaluated in integers, with the top-left
+/// rule: a pixel centre that lies on the common edge of two triangles belongs to exactly one of
+/// them.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +23,8 @@ struct FixedPoint {
 };
 
 /// Twice the signed area, in squares of 1/256 pixel.
-[[nodiscard]] inline std::int64_t twice_area(const FixedPoint& a, const FixedPoint& b, const FixedPoint& c) {
+[[nodiscard]] inline std::int64_t twice_area(const FixedPoint& a, const FixedPoint& b,
+                                             const FixedPoint& c) {
     return std::int64_t{b.x - a.x} * (c.y - a.y) - std::int64_t{b.y - a.y} * (c.x - a.x);
 }
 
@@ -36,14 +38,17 @@ struct TileRect {
     std::int32_t x0 = 0, y0 = 0, x1 = 0, y1 = 0;
 };
 
-/// Where one edge crosses the pixel rows: quotient and remainder of a division, stepped row by row. An edge bounds
-/// spans at their start or at their end; which, is not a branch: small triangles would mispredict it.
+/// Where one edge crosses the pixel rows: quotient and remainder of a division, stepped row by row.
+/// An edge bounds spans at their start or at their end; which, is not a branch: small triangles
+/// would mispredict it.
 class EdgeWalk {
 public:
     /// No bound within [x_begin, x_end).
-    EdgeWalk(std::int32_t x_begin, std::int32_t x_end) : quotient_(x_begin), start_mask_(-1), x_end_(x_end), x_begin_(x_begin) {}
+    EdgeWalk(std::int32_t x_begin, std::int32_t x_end)
+        : quotient_(x_begin), start_mask_(-1), x_end_(x_end), x_begin_(x_begin) {}
     /// Inside is where a * x + b * row + c >= 0, x counted from x_begin; a != 0.
-    EdgeWalk(std::int32_t a, std::int32_t b, std::int32_t c, std::int32_t x_begin, std::int32_t x_end)
+    EdgeWalk(std::int32_t a, std::int32_t b, std::int32_t c, std::int32_t x_begin,
+             std::int32_t x_end)
         : divisor_(std::abs(a)), start_mask_(a > 0 ? -1 : 0), x_end_(x_end), x_begin_(x_begin) {
         // a > 0: from ceil(-(b row + c) / a) on; a < 0: up to floor((b row + c) / -a).
         const std::int32_t numerator = a > 0 ? a - 1 - c : c - a;
@@ -54,8 +59,12 @@ public:
         step_quotient_ = floor_div(step, divisor_);
         step_remainder_ = step - step_quotient_ * divisor_;
     }
-    [[nodiscard]] std::int32_t start() const { return (quotient_ & start_mask_) | (x_begin_ & ~start_mask_); }
-    [[nodiscard]] std::int32_t end() const { return (quotient_ & ~start_mask_) | (x_end_ & start_mask_); }
+    [[nodiscard]] std::int32_t start() const {
+        return (quotient_ & start_mask_) | (x_begin_ & ~start_mask_);
+    }
+    [[nodiscard]] std::int32_t end() const {
+        return (quotient_ & ~start_mask_) | (x_end_ & start_mask_);
+    }
     void next_row() {
         quotient_ += step_quotient_;
         remainder_ += step_remainder_ - divisor_;
@@ -65,36 +74,47 @@ public:
     }
 
 private:
-    static std::int32_t floor_div(std::int32_t a, std::int32_t b) { return a / b - (a % b < 0 ? 1 : 0); }
+    static std::int32_t floor_div(std::int32_t a, std::int32_t b) {
+        return a / b - (a % b < 0 ? 1 : 0);
+    }
 
-    std::int32_t divisor_ = 1, quotient_ = 0, remainder_ = 0, step_quotient_ = 0, step_remainder_ = 0;
+    std::int32_t divisor_ = 1, quotient_ = 0, remainder_ = 0, step_quotient_ = 0,
+                 step_remainder_ = 0;
     std::int32_t start_mask_, x_end_, x_begin_;
 };
 
-/// Calls `span(y, x0, x1)` for every row of `rect` where pixel centres [x0, x1) lie in the triangle.
-/// \pre twice_area(v[0], v[1], v[2]) > 0
+/// Calls `span(y, x0, x1)` for every row of `rect` where pixel centres [x0, x1) lie in the
+/// triangle. \pre twice_area(v[0], v[1], v[2]) > 0
 template <class Span>
-[[gnu::always_inline]] inline void scan_convert(const std::array<FixedPoint, 3>& v, const TileRect& rect, Span&& span) {
-    const std::int32_t x_begin = std::max(rect.x0, first_centre(std::min({v[0].x, v[1].x, v[2].x})));
-    const std::int32_t x_end = std::min(rect.x1, (std::max({v[0].x, v[1].x, v[2].x}) >> sub_pixel_bits) + 1);
-    const std::int32_t y_begin = std::max(rect.y0, first_centre(std::min({v[0].y, v[1].y, v[2].y})));
-    std::int32_t y_end = std::min(rect.y1, (std::max({v[0].y, v[1].y, v[2].y}) >> sub_pixel_bits) + 1);
+[[gnu::always_inline]] inline void scan_convert(const std::array<FixedPoint, 3>& v,
+                                                const TileRect& rect, Span&& span) {
+    const std::int32_t x_begin =
+        std::max(rect.x0, first_centre(std::min({v[0].x, v[1].x, v[2].x})));
+    const std::int32_t x_end =
+        std::min(rect.x1, (std::max({v[0].x, v[1].x, v[2].x}) >> sub_pixel_bits) + 1);
+    const std::int32_t y_begin =
+        std::max(rect.y0, first_centre(std::min({v[0].y, v[1].y, v[2].y})));
+    std::int32_t y_end =
+        std::min(rect.y1, (std::max({v[0].y, v[1].y, v[2].y}) >> sub_pixel_bits) + 1);
     if (x_begin >= x_end || y_begin >= y_end) return;
 
     std::int32_t y_first = y_begin;
-    std::array<EdgeWalk, 3> edges{EdgeWalk(x_begin, x_end), EdgeWalk(x_begin, x_end), EdgeWalk(x_begin, x_end)};
+    std::array<EdgeWalk, 3> edges{EdgeWalk(x_begin, x_end), EdgeWalk(x_begin, x_end),
+                                  EdgeWalk(x_begin, x_end)};
     const std::int32_t width = x_end - 1 - x_begin;
     const std::int32_t height = y_end - 1 - y_begin;
     for (int i = 0; i < 3; ++i) {
         const FixedPoint& p = v[i];
         const FixedPoint& q = v[i == 2 ? 0 : i + 1];
-        // Inside: a x + b y + c >= 0. At pixel centres the edge function changes in steps of 256, so it
-        // may be divided by 256, rounding down, without changing its sign.
+        // Inside: a x + b y + c >= 0. At pixel centres the edge function changes in steps of 256,
+        // so it may be divided by 256, rounding down, without changing its sign.
         const std::int32_t a = p.y - q.y;
         const std::int32_t b = q.x - p.x;
         const bool owns_its_points = a > 0 || (a == 0 && b > 0);
-        const std::int64_t at_origin = -(std::int64_t{a} * p.x + std::int64_t{b} * p.y) - (owns_its_points ? 0 : 1);
-        const std::int64_t c = (at_origin >> sub_pixel_bits) + std::int64_t{a} * x_begin + std::int64_t{b} * y_begin;
+        const std::int64_t at_origin =
+            -(std::int64_t{a} * p.x + std::int64_t{b} * p.y) - (owns_its_points ? 0 : 1);
+        const std::int64_t c =
+            (at_origin >> sub_pixel_bits) + std::int64_t{a} * x_begin + std::int64_t{b} * y_begin;
         const std::int64_t dx = std::int64_t{a} * width;
         const std::int64_t dy = std::int64_t{b} * height;
         if (c + std::min<std::int64_t>(dx, 0) + std::min<std::int64_t>(dy, 0) >= 0) continue;
@@ -109,7 +129,8 @@ template <class Span>
             y_end = y_begin + c32 / -b + 1;
     }
     for (std::int32_t y = y_begin; y < y_end; ++y) {
-        const std::int32_t x0 = std::max({x_begin, edges[0].start(), edges[1].start(), edges[2].start()});
+        const std::int32_t x0 =
+            std::max({x_begin, edges[0].start(), edges[1].start(), edges[2].start()});
         const std::int32_t x1 = std::min({x_end, edges[0].end(), edges[1].end(), edges[2].end()});
         if (x0 < x1 && y >= y_first) span(y, x0, x1);
         for (EdgeWalk& e : edges) e.next_row();

@@ -40,26 +40,31 @@ Bundle sample_bundle(std::uint32_t index, std::uint64_t seed) {
     const glm::dmat3 frame = frame_about(uniform_direction(u(0), u(1)));
     const double turn = 2.0 * std::numbers::pi * u(2);
     const double c = std::cos(turn), s = std::sin(turn);
-    return {{c * frame[0] + s * frame[1], c * frame[1] - s * frame[0], frame[2]}, u(3), u(4), static_cast<int>(256.0 * u(5))};
+    return {{c * frame[0] + s * frame[1], c * frame[1] - s * frame[0], frame[2]},
+            u(3),
+            u(4),
+            static_cast<int>(256.0 * u(5))};
 }
 
 double pixel_size_for(const SurfaceMesh& mesh, int resolution) {
     if (resolution < 16 || resolution > 8192)
-        throw UsageError("resolution " + std::to_string(resolution) + "; accepted: 16 to 8192 pixels");
+        throw UsageError("resolution " + std::to_string(resolution) +
+                         "; accepted: 16 to 8192 pixels");
     const Bounds b = bounds_of(mesh.positions, glm::dmat3(1.0));
     const glm::dvec3 size = b.high - b.low;
     // The mean width of a box over all directions is half the sum of its edges.
     return (size.x + size.y + size.z) / 2.0 / resolution;
 }
 
-TransilluminationBuffer::TransilluminationBuffer(const SurfaceMesh& mesh, const PatchHierarchy& patches,
-                                                 double pixel_size)
+TransilluminationBuffer::TransilluminationBuffer(const SurfaceMesh& mesh,
+                                                 const PatchHierarchy& patches, double pixel_size)
     : mesh_(mesh), patches_(patches), pixel_size_(pixel_size), projected_(mesh.positions.size()) {
     const Bounds b = bounds_of(mesh.positions, glm::dmat3(1.0));
     const double widest = glm::length(b.high - b.low) / pixel_size;
     if (!(pixel_size > 0.0 && widest < max_window - 2))
         throw UsageError("pixel size " + std::to_string(pixel_size) + ": the window would be " +
-                         std::to_string(widest) + " pixels wide; accepted: at most " + std::to_string(max_window));
+                         std::to_string(widest) + " pixels wide; accepted: at most " +
+                         std::to_string(max_window));
     const glm::dvec3 furthest = glm::max(glm::abs(b.low), glm::abs(b.high));
     plane_tolerance_ = std::max({furthest.x, furthest.y, furthest.z}) * 0x1p-38;
     bins_.resize((mesh.triangles.size() + triangles_a_bin_set - 1) / triangles_a_bin_set);
@@ -73,7 +78,8 @@ void TransilluminationBuffer::project(const Bundle& bundle, const Workers& worke
     workers.for_ranges(partial.size(), 1, [&](std::size_t begin, std::size_t end, int) {
         for (std::size_t r = begin; r < end; ++r) {
             Bounds b;
-            for (std::size_t i = r * grain; i < std::min((r + 1) * grain, mesh_.positions.size()); ++i) {
+            for (std::size_t i = r * grain; i < std::min((r + 1) * grain, mesh_.positions.size());
+                 ++i) {
                 const glm::dvec3 q = mesh_.positions[i] * bundle.frame;
                 b.low = glm::min(b.low, q);
                 b.high = glm::max(b.high, q);
@@ -87,7 +93,8 @@ void TransilluminationBuffer::project(const Bundle& bundle, const Workers& worke
         b.high = glm::max(b.high, p.high);
     }
     const double scale = fixed_unit / pixel_size_;
-    const glm::dvec2 shift = glm::dvec2(bundle.offset_x, bundle.offset_y) * fixed_unit - glm::dvec2(b.low) * scale;
+    const glm::dvec2 shift =
+        glm::dvec2(bundle.offset_x, bundle.offset_y) * fixed_unit - glm::dvec2(b.low) * scale;
     const double range = b.high.z - b.low.z;
     const double depth_scale = range > 0.0 ? (0x1p63 - 2.0 * depth_margin) / range : 0.0;
     width_ = static_cast<int>(std::ceil((b.high.x - b.low.x) / pixel_size_)) + 2;
@@ -111,10 +118,12 @@ void TransilluminationBuffer::bin(const Workers& workers) {
             Bins& bins = bins_[set];
             if (bins.size() < tiles) bins.resize(tiles);
             for (auto& bin : bins) bin.clear();
-            const std::size_t last = std::min<std::size_t>((set + 1) * triangles_a_bin_set, mesh_.triangles.size());
+            const std::size_t last =
+                std::min<std::size_t>((set + 1) * triangles_a_bin_set, mesh_.triangles.size());
             for (std::size_t t = set * triangles_a_bin_set; t < last; ++t) {
                 const auto& v = mesh_.triangles[t].vertices;
-                const ProjectedVertex &a = projected_[v[0]], &b = projected_[v[1]], &c = projected_[v[2]];
+                const ProjectedVertex &a = projected_[v[0]], &b = projected_[v[1]],
+                                      &c = projected_[v[2]];
                 const int x0 = first_centre(std::min({a.x, b.x, c.x}));
                 const int x1 = std::max({a.x, b.x, c.x}) >> sub_pixel_bits;
                 const int y0 = first_centre(std::min({a.y, b.y, c.y}));
@@ -122,24 +131,32 @@ void TransilluminationBuffer::bin(const Workers& workers) {
                 if (x0 > x1 || y0 > y1) continue;  // between pixel centres
                 for (int y = y0 / tile_size; y <= y1 / tile_size; ++y)
                     for (int x = x0 / tile_size; x <= x1 / tile_size; ++x)
-                        bins[static_cast<std::size_t>(y) * tiles_x_ + x].push_back(static_cast<std::uint32_t>(t));
+                        bins[static_cast<std::size_t>(y) * tiles_x_ + x].push_back(
+                            static_cast<std::uint32_t>(t));
             }
         }
     });
 }
 
-void TransilluminationBuffer::trace(const Bundle& bundle, const Workers& workers, const Visitor& visit) {
+void TransilluminationBuffer::trace(const Bundle& bundle, const Workers& workers,
+                                    const Visitor& visit) {
     project(bundle, workers);
     bin(workers);
     scratch_.resize(std::max<std::size_t>(scratch_.size(), workers.count()));
-    workers.for_ranges(static_cast<std::size_t>(tiles_x_) * tiles_y_, 1, [&](std::size_t begin, std::size_t end, int worker) {
-        for (std::size_t tile = begin; tile < end; ++tile) {
-            Scratch& s = scratch_[worker];
-            fill_tile(static_cast<int>(tile), s);
-            if (s.count == 0) continue;
-            visit({s.rect.x1 - s.rect.x0, s.rect.y1 - s.rect.y0, s.rect.y0, s.first, {s.sorted.data(), s.count}}, worker);
-        }
-    });
+    workers.for_ranges(static_cast<std::size_t>(tiles_x_) * tiles_y_, 1,
+                       [&](std::size_t begin, std::size_t end, int worker) {
+                           for (std::size_t tile = begin; tile < end; ++tile) {
+                               Scratch& s = scratch_[worker];
+                               fill_tile(static_cast<int>(tile), s);
+                               if (s.count == 0) continue;
+                               visit({s.rect.x1 - s.rect.x0,
+                                      s.rect.y1 - s.rect.y0,
+                                      s.rect.y0,
+                                      s.first,
+                                      {s.sorted.data(), s.count}},
+                                     worker);
+                           }
+                       });
 }
 
 }  // namespace transillum

@@ -14,17 +14,19 @@ constexpr std::uint64_t depth_bits = 0xffffffff00000000u;
 /// Planes of triangles that meet at an edge differ by this much there.
 constexpr double depth_rounding = 0x1p24;
 
-std::array<std::uint32_t, block> leaves_of_block(int level, float s0, float ds, float t0, float dt) {
+std::array<std::uint32_t, block> leaves_of_block(int level, float s0, float ds, float t0,
+                                                 float dt) {
     std::array<std::uint32_t, block> leaves;
     for (int i = 0; i < block; ++i)
-        leaves[i] = leaf_in_root(level, s0 + ds * static_cast<float>(i), t0 + dt * static_cast<float>(i));
+        leaves[i] =
+            leaf_in_root(level, s0 + ds * static_cast<float>(i), t0 + dt * static_cast<float>(i));
     return leaves;
 }
 
 }  // namespace
 
-/// Through the vertices in the order of their numbers: triangles on the same three vertices then have the same
-/// depths to the last bit.
+/// Through the vertices in the order of their numbers: triangles on the same three vertices then
+/// have the same depths to the last bit.
 TransilluminationBuffer::Plane TransilluminationBuffer::depth_plane(std::uint32_t root) const {
     std::array<std::uint32_t, 3> v = mesh_.triangles[root].vertices;
     if (v[0] > v[1]) std::swap(v[0], v[1]);
@@ -34,12 +36,13 @@ TransilluminationBuffer::Plane TransilluminationBuffer::depth_plane(std::uint32_
     const double bx = b.x - a.x, by = b.y - a.y, cx = c.x - a.x, cy = c.y - a.y;
     const double scale = fixed_unit / (bx * cy - cx * by);
     const double zb = b.depth - a.depth, zc = c.depth - a.depth;
-    return {a.x / fixed_unit, a.y / fixed_unit, a.depth, (zb * cy - zc * by) * scale, (zc * bx - zb * cx) * scale};
+    return {a.x / fixed_unit, a.y / fixed_unit, a.depth, (zb * cy - zc * by) * scale,
+            (zc * bx - zb * cx) * scale};
 }
 
 /// Barycentric coordinates of the second and third vertex, about the first.
-std::array<TransilluminationBuffer::Plane, 2> TransilluminationBuffer::barycentric_planes(const std::array<FixedPoint, 3>& v,
-                                                                                          std::int64_t twice_area) {
+std::array<TransilluminationBuffer::Plane, 2> TransilluminationBuffer::barycentric_planes(
+    const std::array<FixedPoint, 3>& v, std::int64_t twice_area) {
     const double scale = fixed_unit / static_cast<double>(twice_area);
     const double x = v[0].x / fixed_unit, y = v[0].y / fixed_unit;
     return {Plane{x, y, 0.0, (v[2].y - v[0].y) * scale, (v[0].x - v[2].x) * scale},
@@ -55,10 +58,12 @@ bool TransilluminationBuffer::are_coplanar(std::uint32_t root_a, std::uint32_t r
     return true;
 }
 
-/// The order of two fragments whose 31 bits of depth all but agree. Vertices were moved within the window, not in
-/// depth, so the depths of coinciding surfaces differ a little: there their keys decide, elsewhere their planes do.
+/// The order of two fragments whose 31 bits of depth all but agree. Vertices were moved within the
+/// window, not in depth, so the depths of coinciding surfaces differ a little: there their keys
+/// decide, elsewhere their planes do.
 bool TransilluminationBuffer::is_behind(Fragment a, Fragment b, int x, int y) const {
-    const std::uint32_t root_a = patches_.root_of_leaf[leaf_of(a)], root_b = patches_.root_of_leaf[leaf_of(b)];
+    const std::uint32_t root_a = patches_.root_of_leaf[leaf_of(a)],
+                        root_b = patches_.root_of_leaf[leaf_of(b)];
     const double distance = depth_plane(root_a).at(x, y) - depth_plane(root_b).at(x, y);
     if (std::abs(distance) <= depth_rounding || are_coplanar(root_a, root_b))
         return static_cast<std::uint32_t>(a) > static_cast<std::uint32_t>(b);
@@ -106,7 +111,8 @@ void TransilluminationBuffer::draw(std::uint32_t root, const TileRect& rect, Scr
     if (patches.level > 0) b = barycentric_planes(fixed, area);
     if (area < 0) std::swap(fixed[1], fixed[2]);
     // A slope that does not fit belongs to a span of one pixel, where it is not used.
-    const auto dz = static_cast<std::uint64_t>(static_cast<std::int64_t>(std::clamp(depth.dx, -0x1p62, 0x1p62)));
+    const auto dz = static_cast<std::uint64_t>(
+        static_cast<std::int64_t>(std::clamp(depth.dx, -0x1p62, 0x1p62)));
 
     const std::uint64_t low = facing | patches.first_leaf;
     const auto ds = static_cast<float>(b[0].dx), dt = static_cast<float>(b[1].dx);
@@ -118,27 +124,32 @@ void TransilluminationBuffer::draw(std::uint32_t root, const TileRect& rect, Scr
     const int width = rect.x1 - rect.x0;
     std::array<std::uint64_t, block> ramp;
     for (int i = 0; i < block; ++i) ramp[i] = static_cast<std::uint64_t>(i) * dz;
-    scan_convert(fixed, rect, [&](std::int32_t y, std::int32_t x0, std::int32_t x1) __attribute__((always_inline)) {
-        int at = (y - rect.y0) * width + (x0 - rect.x0);
-        int length = x1 - x0;
-        auto z = static_cast<std::uint64_t>(std::clamp(depth.at(x0, y), 0.0, 0x1p63));
-        auto s0 = static_cast<float>(b[0].at(x0, y)), t0 = static_cast<float>(b[1].at(x0, y));
-        // Whole blocks, of which the next span overwrites what is too much: short spans would mispredict a loop's end.
-        for (; length > 0; length -= block) {
-            const std::array<std::uint32_t, block> leaf = patches.level == 0 ? std::array<std::uint32_t, block>{}
-                                                                             : leaves_of_block(patches.level, s0, ds, t0, dt);
-            for (int i = 0; i < block; ++i) out[i] = ((z + ramp[i]) & depth_bits) | (low + leaf[i]);
-            for (int i = 0; i < block; ++i) pixel[i] = static_cast<std::uint16_t>(at + i);
-            for (int i = 0; i < block; ++i) lengths[at + i] += i < length ? 1 : 0;
-            const int taken = std::min(length, block);
-            out += taken;
-            pixel += taken;
-            at += block;
-            z += block * dz;
-            s0 += block * ds;
-            t0 += block * dt;
-        }
-    });
+    scan_convert(
+        fixed,
+        rect, [&](std::int32_t y, std::int32_t x0, std::int32_t x1) __attribute__((always_inline)) {
+            int at = (y - rect.y0) * width + (x0 - rect.x0);
+            int length = x1 - x0;
+            auto z = static_cast<std::uint64_t>(std::clamp(depth.at(x0, y), 0.0, 0x1p63));
+            auto s0 = static_cast<float>(b[0].at(x0, y)), t0 = static_cast<float>(b[1].at(x0, y));
+            // Whole blocks, of which the next span overwrites what is too much: short spans would
+            // mispredict a loop's end.
+            for (; length > 0; length -= block) {
+                const std::array<std::uint32_t, block> leaf =
+                    patches.level == 0 ? std::array<std::uint32_t, block>{}
+                                       : leaves_of_block(patches.level, s0, ds, t0, dt);
+                for (int i = 0; i < block; ++i)
+                    out[i] = ((z + ramp[i]) & depth_bits) | (low + leaf[i]);
+                for (int i = 0; i < block; ++i) pixel[i] = static_cast<std::uint16_t>(at + i);
+                for (int i = 0; i < block; ++i) lengths[at + i] += i < length ? 1 : 0;
+                const int taken = std::min(length, block);
+                out += taken;
+                pixel += taken;
+                at += block;
+                z += block * dz;
+                s0 += block * ds;
+                t0 += block * dt;
+            }
+        });
     scratch.count = static_cast<std::size_t>(out - scratch.drawn.data());
 }
 
@@ -152,8 +163,8 @@ void TransilluminationBuffer::fill_tile(int tile, Scratch& scratch) const {
         for (const std::uint32_t root : bins[tile]) draw(root, scratch.rect, scratch);
     if (scratch.count == 0) return;
 
-    // Counting sort by pixel. While filling, first[i] runs from the start of list i to its end, which is
-    // the start of list i + 1: shifting by one restores it.
+    // Counting sort by pixel. While filling, first[i] runs from the start of list i to its end,
+    // which is the start of list i + 1: shifting by one restores it.
     auto& first = scratch.first;
     std::partial_sum(first.begin(), first.begin() + pixels + 1, first.begin());
     if (scratch.sorted.size() < scratch.count) scratch.sorted.resize(scratch.drawn.size());
@@ -161,7 +172,8 @@ void TransilluminationBuffer::fill_tile(int tile, Scratch& scratch) const {
     const Fragment* const drawn = scratch.drawn.data();
     const std::uint16_t* const pixel = scratch.pixel.data();
     std::uint32_t* const place = first.data();
-    for (std::size_t i = 0, count = scratch.count; i < count; ++i) sorted[place[pixel[i]]++] = drawn[i];
+    for (std::size_t i = 0, count = scratch.count; i < count; ++i)
+        sorted[place[pixel[i]]++] = drawn[i];
     std::copy_backward(first.begin(), first.begin() + pixels, first.begin() + pixels + 1);
     first[0] = 0;
     const int width = scratch.rect.x1 - x0;

@@ -21,12 +21,14 @@ struct TransilluminationBuffer::Plane {
     [[nodiscard]] double at(int x, int y) const { return value + dx * (x - x0) + dy * (y - y0); }
 };
 
-/// A tile being filled. Fragments are drawn in the triangles' order, then sorted by pixel and by depth.
+/// A tile being filled. Fragments are drawn in the triangles' order, then sorted by pixel and by
+/// depth.
 struct TransilluminationBuffer::Scratch {
     TileRect rect;
     std::vector<Fragment> drawn, sorted;
     std::vector<std::uint16_t> pixel;
-    std::vector<std::uint32_t> first = std::vector<std::uint32_t>(tile_size * tile_size + 1 + block);
+    std::vector<std::uint32_t> first =
+        std::vector<std::uint32_t>(tile_size * tile_size + 1 + block);
     std::size_t count = 0;
 
     /// Makes room for a triangle that covers the tile.

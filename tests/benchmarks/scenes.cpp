@@ -8,8 +8,9 @@ namespace transillum::benchmarks {
 namespace {
 
 void add_polygon(Scene& scene, const std::vector<glm::dvec3>& corners) {
-    scene.polygons.push_back({static_cast<std::uint32_t>(scene.corners.size()), static_cast<std::uint32_t>(corners.size()),
-                              0, 0, static_cast<std::uint32_t>(scene.polygons.size())});
+    scene.polygons.push_back({static_cast<std::uint32_t>(scene.corners.size()),
+                              static_cast<std::uint32_t>(corners.size()), 0, 0,
+                              static_cast<std::uint32_t>(scene.polygons.size())});
     for (const glm::dvec3& p : corners) {
         scene.corners.push_back(static_cast<std::uint32_t>(scene.positions.size()));
         scene.positions.push_back(p);
@@ -33,7 +34,8 @@ void add_sphere(Scene& scene, const glm::dvec3& centre, double radius, int rings
         const double theta = std::numbers::pi * ring / rings;
         const double phi = 2.0 * std::numbers::pi * (segment % segments) / segments;
         const double sine = ring == 0 || ring == rings ? 0.0 : std::sin(theta);
-        return centre + radius * glm::dvec3(sine * std::cos(phi), sine * std::sin(phi), std::cos(theta));
+        return centre +
+               radius * glm::dvec3(sine * std::cos(phi), sine * std::sin(phi), std::cos(theta));
     };
     for (int r = 0; r < rings; ++r)
         for (int s = 0; s < segments; ++s) {

@@ -5,8 +5,8 @@
 
 namespace transillum::benchmarks {
 
-/// \param spheres along each edge of the grid; \param rings of a sphere's tessellation: 2 * rings * (rings - 1) * 2
-/// triangles each.
+/// \param spheres along each edge of the grid; \param rings of a sphere's tessellation: 2 * rings *
+/// (rings - 1) * 2 triangles each.
 [[nodiscard]] SurfaceMesh room_of_spheres(int spheres, int rings);
 
 }  // namespace transillum::benchmarks

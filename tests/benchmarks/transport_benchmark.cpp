@@ -1,4 +1,5 @@
-// Throughput of the transport against rays, and its scaling with leaves and triangles. Compare within one run.
+// Throughput of the transport against rays, and its scaling with leaves and triangles. Compare
+// within one run.
 #include "benchmarks/scenes.h"
 
 #include <transillum/base/sampling.h>
@@ -18,10 +19,11 @@ using benchmarks::room_of_spheres;
 constexpr int window = 1000;
 constexpr int threads = 2;
 
-/// Rooms with spheres in them: 0: one of 48 triangles; 1: eight, 52 k in all; 2: 64, 54 k; 3: 64, 379 k.
+/// Rooms with spheres in them: 0: one of 48 triangles; 1: eight, 52 k in all; 2: 64, 54 k; 3: 64,
+/// 379 k.
 const SurfaceMesh& scene_of(std::int64_t number) {
-    static const std::array<SurfaceMesh, 4> scenes{room_of_spheres(1, 4), room_of_spheres(2, 41), room_of_spheres(4, 15),
-                                                   room_of_spheres(4, 39)};
+    static const std::array<SurfaceMesh, 4> scenes{room_of_spheres(1, 4), room_of_spheres(2, 41),
+                                                   room_of_spheres(4, 15), room_of_spheres(4, 39)};
     return scenes.at(static_cast<std::size_t>(number));
 }
 
@@ -31,7 +33,8 @@ void whole_iteration(benchmark::State& state) {
     const PatchHierarchy patches = subdivide_to_levels(
         std::vector<int>(mesh.triangles.size(), static_cast<int>(state.range(1))));
     const std::uint32_t n = patches.patch_count();
-    const PatchSources sources{std::vector<Spectrum>(n, Spectrum(1.0f)), std::vector<Spectrum>(n, Spectrum(0.0f)),
+    const PatchSources sources{std::vector<Spectrum>(n, Spectrum(1.0f)),
+                               std::vector<Spectrum>(n, Spectrum(0.0f)),
                                std::vector<Spectrum>(n, Spectrum(0.5f))};
     const Workers workers(threads);
     Monitor silent;
@@ -44,18 +47,22 @@ void whole_iteration(benchmark::State& state) {
         fragments += result.fragments;
         directions += result.iterations;
     }
-    state.counters["fragments/s"] = benchmark::Counter(static_cast<double>(fragments), benchmark::Counter::kIsRate);
-    state.counters["s/direction"] = benchmark::Counter(static_cast<double>(directions), benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+    state.counters["fragments/s"] =
+        benchmark::Counter(static_cast<double>(fragments), benchmark::Counter::kIsRate);
+    state.counters["s/direction"] = benchmark::Counter(
+        static_cast<double>(directions), benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
     state.counters["triangles"] = static_cast<double>(mesh.triangles.size());
     state.counters["leaves"] = patches.leaf_count;
 }
 
 RTCScene embree_scene(RTCDevice device, const SurfaceMesh& mesh) {
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, mesh.positions.size()));
+    auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, mesh.positions.size()));
     for (std::size_t i = 0; i < mesh.positions.size(); ++i)
         for (int k = 0; k < 3; ++k) vertices[3 * i + k] = static_cast<float>(mesh.positions[i][k]);
-    auto* indices = static_cast<unsigned*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, mesh.triangles.size()));
+    auto* indices = static_cast<unsigned*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, mesh.triangles.size()));
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
         for (int k = 0; k < 3; ++k) indices[3 * i + k] = mesh.triangles[i].vertices[k];
     rtcCommitGeometry(geometry);
@@ -98,15 +105,32 @@ void incoherent_rays(benchmark::State& state) {
             }
         });
     }
-    state.counters["rays/s"] = benchmark::Counter(static_cast<double>(rays * state.iterations()), benchmark::Counter::kIsRate);
+    state.counters["rays/s"] = benchmark::Counter(static_cast<double>(rays * state.iterations()),
+                                                  benchmark::Counter::kIsRate);
     rtcReleaseScene(scene);
     rtcReleaseDevice(device);
 }
 
-BENCHMARK(incoherent_rays)->ArgName("scene")->Arg(0)->Arg(1)->Arg(2)->Arg(3)->UseRealTime()->Unit(benchmark::kMillisecond);
-BENCHMARK(whole_iteration)->ArgNames({"scene", "level"})
-    ->Args({0, 4})->Args({0, 5})->Args({0, 6})->Args({1, 0})->Args({2, 0})->Args({2, 1})->Args({2, 2})->Args({3, 0})
-    ->UseRealTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(incoherent_rays)
+    ->ArgName("scene")
+    ->Arg(0)
+    ->Arg(1)
+    ->Arg(2)
+    ->Arg(3)
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(whole_iteration)
+    ->ArgNames({"scene", "level"})
+    ->Args({0, 4})
+    ->Args({0, 5})
+    ->Args({0, 6})
+    ->Args({1, 0})
+    ->Args({2, 0})
+    ->Args({2, 1})
+    ->Args({2, 2})
+    ->Args({3, 0})
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
 
 }  // namespace
 

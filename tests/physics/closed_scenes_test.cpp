@@ -12,7 +12,8 @@ using namespace transillum::testing_support;
 
 double largest_deviation_from_one(const TransportRun& run) {
     double largest = 0.0;
-    for (std::uint32_t p = 0; p < run.patches.leaf_count; ++p) largest = std::max(largest, std::abs(run.radiance(p) - 1.0));
+    for (std::uint32_t p = 0; p < run.patches.leaf_count; ++p)
+        largest = std::max(largest, std::abs(run.radiance(p) - 1.0));
     return largest;
 }
 
@@ -20,7 +21,8 @@ class Furnace : public testing::TestWithParam<float> {};
 
 TEST_P(Furnace, OfACubeIsOneEverywhere) {
     const float rho = GetParam();
-    EXPECT_LT(largest_deviation_from_one(run_transport(cube_scene(rho, 1 - rho, 1 - rho), {})), 1e-4);
+    EXPECT_LT(largest_deviation_from_one(run_transport(cube_scene(rho, 1 - rho, 1 - rho), {})),
+              1e-4);
 }
 
 TEST_P(Furnace, OfASphereIsOneEverywhere) {
@@ -32,7 +34,8 @@ TEST_P(Furnace, OfASphereIsOneEverywhere) {
 
 INSTANTIATE_TEST_SUITE_P(Albedos, Furnace, testing::Values(0.5f, 0.95f));
 
-// Le = 1 - a makes L = 1 for any shape and any albedos, also on a mesh whose triangles meet only in part.
+// Le = 1 - a makes L = 1 for any shape and any albedos, also on a mesh whose triangles meet only in
+// part.
 TEST(ManufacturedSolution, HoldsForDifferentAlbedosAndTJunctions) {
     SceneBuilder b;
     const auto material = [&](float rho) { return b.material(Spectrum(rho), Spectrum(1 - rho)); };
@@ -54,28 +57,35 @@ class MeanIrradiance : public testing::TestWithParam<MeanCase> {};
 TEST_P(MeanIrradiance, FollowsFromTheFlux) {
     const auto [rho, directions, tolerance] = GetParam();
     for (const std::uint64_t seed : {1, 2, 3}) {
-        const TransportRun run = run_transport(cube_scene(rho, 1.0f, 0.0f), {.directions = directions, .seed = seed});
-        EXPECT_NEAR(run.mean_incoming(all_fronts) * 6.0 * (1.0 - rho), 1.0, tolerance) << "seed " << seed;
+        const TransportRun run =
+            run_transport(cube_scene(rho, 1.0f, 0.0f), {.directions = directions, .seed = seed});
+        EXPECT_NEAR(run.mean_incoming(all_fronts) * 6.0 * (1.0 - rho), 1.0, tolerance)
+            << "seed " << seed;
     }
 }
 
 INSTANTIATE_TEST_SUITE_P(Albedos, MeanIrradiance,
-                         testing::Values(MeanCase{0.2f, 256, 5e-3}, MeanCase{0.5f, 256, 5e-3}, MeanCase{0.8f, 256, 5e-3},
-                                         MeanCase{0.9f, 256, 5e-3}, MeanCase{0.2f, 1024, 1e-3}, MeanCase{0.5f, 1024, 1e-3},
+                         testing::Values(MeanCase{0.2f, 256, 5e-3}, MeanCase{0.5f, 256, 5e-3},
+                                         MeanCase{0.8f, 256, 5e-3}, MeanCase{0.9f, 256, 5e-3},
+                                         MeanCase{0.2f, 1024, 1e-3}, MeanCase{0.5f, 1024, 1e-3},
                                          MeanCase{0.8f, 1024, 1e-3}, MeanCase{0.9f, 1024, 1e-3}));
 
 // What the balance is for: the 1/m average forgets its start only as m^-(1 - a).
 TEST(PaperAveraging, FallsShortAtHighAlbedo) {
-    const TransportRun run = run_transport(cube_scene(0.9f, 1.0f, 0.0f), {.averaging = Averaging::paper});
+    const TransportRun run =
+        run_transport(cube_scene(0.9f, 1.0f, 0.0f), {.averaging = Averaging::paper});
     EXPECT_LT(run.mean_incoming(all_fronts) * 0.6, 0.9);
-    const TransportRun mild = run_transport(cube_scene(0.2f, 1.0f, 0.0f), {.averaging = Averaging::paper});
+    const TransportRun mild =
+        run_transport(cube_scene(0.2f, 1.0f, 0.0f), {.averaging = Averaging::paper});
     EXPECT_NEAR(mild.mean_incoming(all_fronts) * 4.8, 1.0, 0.03);
 }
 
 TEST(TwoRooms, FarRoomConvergesFast) {
     const auto far_mean = [](std::uint64_t directions) {
         const TransportRun run = run_transport(two_rooms_scene(0.8f), {.directions = directions});
-        return run.mean_incoming([&](std::uint32_t root, bool back) { return !back && is_in_far_room(run.surface, root); });
+        return run.mean_incoming([&](std::uint32_t root, bool back) {
+            return !back && is_in_far_room(run.surface, root);
+        });
     };
     EXPECT_NEAR(far_mean(256) / far_mean(4096), 1.0, 0.03);
 }

@@ -11,12 +11,16 @@ namespace {
 using namespace transillum;
 using namespace transillum::testing_support;
 
-Scene lit_cube() { return cube_scene(0.6f, 1.0f, 0.0f); }
+Scene lit_cube() {
+    return cube_scene(0.6f, 1.0f, 0.0f);
+}
 
 TEST(Invariance, ResultDoesNotDependOnTheThreads) {
-    const TransportRun one = run_transport(two_rooms_scene(0.8f), {.directions = 100, .threads = 1});
+    const TransportRun one =
+        run_transport(two_rooms_scene(0.8f), {.directions = 100, .threads = 1});
     for (const int threads : {2, 8}) {
-        const TransportRun many = run_transport(two_rooms_scene(0.8f), {.directions = 100, .threads = threads});
+        const TransportRun many =
+            run_transport(two_rooms_scene(0.8f), {.directions = 100, .threads = threads});
         EXPECT_EQ(one.result.irradiance, many.result.irradiance) << threads << " threads";
         EXPECT_EQ(one.result.standard_error, many.result.standard_error) << threads << " threads";
         EXPECT_EQ(one.result.coverage, many.result.coverage) << threads << " threads";
@@ -34,7 +38,8 @@ TEST(Invariance, LightsAddUp) {
     const TransportRun floor = run_transport(cube_scene(0.6f, 1.0f, 0.0f), {.directions = 1024});
     const TransportRun others = run_transport(cube_scene(0.6f, 0.0f, 0.3f), {.directions = 1024});
     const TransportRun both = run_transport(cube_scene(0.6f, 1.0f, 0.3f), {.directions = 1024});
-    EXPECT_NEAR(both.mean_incoming(all_fronts), floor.mean_incoming(all_fronts) + others.mean_incoming(all_fronts),
+    EXPECT_NEAR(both.mean_incoming(all_fronts),
+                floor.mean_incoming(all_fronts) + others.mean_incoming(all_fronts),
                 1e-3 * both.mean_incoming(all_fronts));
 }
 
@@ -50,7 +55,8 @@ TEST_P(Moved, SceneKeepsItsLight) {
 }
 
 INSTANTIATE_TEST_SUITE_P(ScalesAndShifts, Moved,
-                         testing::Values(std::pair{1e-3, 0.0}, std::pair{1e3, 0.0}, std::pair{1.0, 1e6}, std::pair{1e3, -1e6}));
+                         testing::Values(std::pair{1e-3, 0.0}, std::pair{1e3, 0.0},
+                                         std::pair{1.0, 1e6}, std::pair{1e3, -1e6}));
 
 TEST(Invariance, ADuplicatedFaceDoesNotDoubleTheFlux) {
     Scene scene = lit_cube();
@@ -67,13 +73,17 @@ double deviation(const TransportRun& run, const TransportRun& exact) {
     return std::sqrt(sum / run.patches.leaf_count);
 }
 
-// The average is begun anew at 8, 16, 32 and 64 directions: a run that ends soon after must not suffer.
+// The average is begun anew at 8, 16, 32 and 64 directions: a run that ends soon after must not
+// suffer.
 TEST(Iterations, OneMoreDoesNoHarm) {
     const TransportRun exact = run_transport(lit_cube(), {.directions = 4096, .leaves = 200});
     for (const std::uint64_t m : {8, 16, 32, 64, 128}) {
-        const double at = deviation(run_transport(lit_cube(), {.directions = m, .leaves = 200}), exact);
-        const double after = deviation(run_transport(lit_cube(), {.directions = m + 1, .leaves = 200}), exact);
-        // A single direction beyond a net weighs 2 / (m + 1) and may deviate by as much as the mean.
+        const double at =
+            deviation(run_transport(lit_cube(), {.directions = m, .leaves = 200}), exact);
+        const double after =
+            deviation(run_transport(lit_cube(), {.directions = m + 1, .leaves = 200}), exact);
+        // A single direction beyond a net weighs 2 / (m + 1) and may deviate by as much as the
+        // mean.
         EXPECT_LT(after, 1.5 * at) << m;
     }
 }
@@ -95,23 +105,29 @@ TEST(Invariance, StrayVerticesChangeNothing) {
     EXPECT_LT(strayed.result.relative_error, 1.01);
 }
 
-// A ground far larger than the rest of the scene: patches that no direction met are not taken for exact.
+// A ground far larger than the rest of the scene: patches that no direction met are not taken for
+// exact.
 TEST(StandardError, CountsPatchesNeverMetAsUnknown) {
     SceneBuilder b;
     b.box({0, 0, 0}, {1, 1, 1}, Facing::inwards, b.material(Spectrum(0.5f), Spectrum(1.0f)));
-    b.polygon({{-1e5, -1e5, -1}, {1e5, -1e5, -1}, {1e5, 1e5, -1}, {-1e5, 1e5, -1}}, b.material(Spectrum(0.5f)));
+    b.polygon({{-1e5, -1e5, -1}, {1e5, -1e5, -1}, {1e5, 1e5, -1}, {-1e5, 1e5, -1}},
+              b.material(Spectrum(0.5f)));
     const TransportRun run = run_transport(b.scene, {.directions = 128, .leaves = 100});
     double largest = 0.0;
-    for (std::uint32_t p = 0; p < run.patches.leaf_count; ++p) largest = std::max<double>(largest, run.result.irradiance[p].x);
+    for (std::uint32_t p = 0; p < run.patches.leaf_count; ++p)
+        largest = std::max<double>(largest, run.result.irradiance[p].x);
     EXPECT_LT(largest, 10.0 * std::numbers::pi) << "the balance blew up";
 }
 
 TEST(StandardError, CoversTheSpreadOfScrambledReplicates) {
-    // It is meant to overstate, but by less than an order of magnitude; and never to promise too much.
+    // It is meant to overstate, but by less than an order of magnitude; and never to promise too
+    // much.
     constexpr int replicates = 8;
     std::vector<TransportRun> runs;
     for (int i = 0; i < replicates; ++i)
-        runs.push_back(run_transport(lit_cube(), {.directions = 256, .leaves = 200, .seed = static_cast<std::uint64_t>(i + 1)}));
+        runs.push_back(run_transport(
+            lit_cube(),
+            {.directions = 256, .leaves = 200, .seed = static_cast<std::uint64_t>(i + 1)}));
     double spread = 0.0, estimated = 0.0;
     for (std::uint32_t p = 0; p < runs[0].patches.leaf_count; ++p) {
         double mean = 0.0;

@@ -1,5 +1,5 @@
-// CIE 171:2006 case 5.8: a 4 m cube, 10 000 lm from its centre, all surfaces of one albedo. The source is a black cube of
-// 2 cm here, sent by first shot.
+// CIE 171:2006 case 5.8: a 4 m cube, 10 000 lm from its centre, all surfaces of one albedo. The
+// source is a black cube of 2 cm here, sent by first shot.
 #include "support/scene_builder.h"
 
 #include <transillum/solution/bake.h>
@@ -19,8 +19,9 @@ Solution bake_cube(float albedo) {
     SceneBuilder b;
     b.box({-2, -2, -2}, {2, 2, 2}, Facing::inwards, b.material(Spectrum(albedo)));
     const double half = 0.01, area = 24.0 * half * half;
-    b.box(glm::dvec3(-half), glm::dvec3(half), Facing::outwards,
-          b.material(Spectrum(0.0f), Spectrum(static_cast<float>(flux / (std::numbers::pi * area)))));
+    b.box(
+        glm::dvec3(-half), glm::dvec3(half), Facing::outwards,
+        b.material(Spectrum(0.0f), Spectrum(static_cast<float>(flux / (std::numbers::pi * area)))));
     BakeOptions options;
     options.subdivision.leaf_target = 3000;
     options.iteration.iterations = 256;

@@ -19,7 +19,8 @@ double TransportRun::mean_incoming(const std::function<bool(std::uint32_t, bool)
 }
 
 double TransportRun::radiance(std::uint32_t patch) const {
-    return sources.emission[patch].x + sources.albedo[patch].x * result.irradiance[patch].x / std::numbers::pi;
+    return sources.emission[patch].x +
+           sources.albedo[patch].x * result.irradiance[patch].x / std::numbers::pi;
 }
 
 TransportRun run_transport(const Scene& scene, const RunOptions& options) {
@@ -31,7 +32,8 @@ TransportRun run_transport(const Scene& scene, const RunOptions& options) {
     return run_transport(surface, subdivide_uniformly(surface, subdivision), options);
 }
 
-TransportRun run_transport(const SurfaceMesh& surface, const PatchHierarchy& patches, const RunOptions& options) {
+TransportRun run_transport(const SurfaceMesh& surface, const PatchHierarchy& patches,
+                           const RunOptions& options) {
     Monitor silent;
     TransportRun run{surface, patches, {}, {}};
     for (std::uint32_t p = 0; p < run.patches.patch_count(); ++p) {
@@ -47,7 +49,8 @@ TransportRun run_transport(const SurfaceMesh& surface, const PatchHierarchy& pat
     iteration.pixel_size = pixel_size_for(run.surface, options.resolution);
     iteration.seed = options.seed;
     iteration.averaging = options.averaging;
-    run.result = iterate(run.surface, run.patches, run.sources, iteration, Workers(options.threads), silent);
+    run.result =
+        iterate(run.surface, run.patches, run.sources, iteration, Workers(options.threads), silent);
     return run;
 }
 
@@ -77,7 +80,8 @@ Scene two_rooms_scene(float albedo) {
 
 bool is_in_far_room(const SurfaceMesh& surface, std::uint32_t root) {
     double x = 0.0;
-    for (const std::uint32_t v : surface.triangles[root].vertices) x += surface.positions[v].x / 3.0;
+    for (const std::uint32_t v : surface.triangles[root].vertices)
+        x += surface.positions[v].x / 3.0;
     return x > 1.0;
 }
 

@@ -27,24 +27,29 @@ struct TransportRun {
     PatchSources sources;
     TransportResult result;
 
-    /// Area-weighted mean of the irradiance over the patches that `chosen` picks, by root and side, per pi: that
-    /// is, the mean radiance arriving. First channel.
-    [[nodiscard]] double mean_incoming(const std::function<bool(std::uint32_t root, bool back)>& chosen) const;
+    /// Area-weighted mean of the irradiance over the patches that `chosen` picks, by root and side,
+    /// per pi: that is, the mean radiance arriving. First channel.
+    [[nodiscard]] double mean_incoming(
+        const std::function<bool(std::uint32_t root, bool back)>& chosen) const;
     /// Emission and everything reflected, of one patch. First channel.
     [[nodiscard]] double radiance(std::uint32_t patch) const;
 };
 
 [[nodiscard]] TransportRun run_transport(const Scene& scene, const RunOptions& options);
 /// With elements of one's own; `options` says nothing of leaves then.
-[[nodiscard]] TransportRun run_transport(const SurfaceMesh& surface, const PatchHierarchy& patches, const RunOptions& options);
+[[nodiscard]] TransportRun run_transport(const SurfaceMesh& surface, const PatchHierarchy& patches,
+                                         const RunOptions& options);
 
-inline bool all_fronts(std::uint32_t, bool back) { return !back; }
+inline bool all_fronts(std::uint32_t, bool back) {
+    return !back;
+}
 
-/// The unit cube, fronts inwards, all of one albedo; its floor (the first two roots) emits a radiance of `floor`, the
-/// rest of `others`.
+/// The unit cube, fronts inwards, all of one albedo; its floor (the first two roots) emits a
+/// radiance of `floor`, the rest of `others`.
 [[nodiscard]] Scene cube_scene(float albedo, float floor, float others);
 
-/// Two unit rooms beside each other along x, joined by a door; the floor of the first emits a radiance of 1.
+/// Two unit rooms beside each other along x, joined by a door; the floor of the first emits a
+/// radiance of 1.
 [[nodiscard]] Scene two_rooms_scene(float albedo);
 [[nodiscard]] bool is_in_far_room(const SurfaceMesh& surface, std::uint32_t root);
 

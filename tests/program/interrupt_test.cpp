@@ -35,8 +35,8 @@ TEST_F(Interrupt, OfABakeSavesASolution) {
 TEST_F(Interrupt, OfARenderLeavesNothing) {
     write_room("0.5", "1");
     bake_room("room.vtm");
-    const Outcome o = shell(
-        interrupted_at("render", "render room.vtm -o out/p.exr --size 1000x16000"));
+    const Outcome o =
+        shell(interrupted_at("render", "render room.vtm -o out/p.exr --size 1000x16000"));
     EXPECT_EQ(o.exit_code, 130) << o.err;
     EXPECT_EQ(listing("out"), std::set<std::string>());
 }

@@ -1,5 +1,5 @@
-/// Typed errors. A message is one line that names where (file, line, object, face or option), what was
-/// found and what is accepted. The library throws; only the program's `main` prints and exits.
+/// Typed errors. A message is one line that names where (file, line, object, face or option), what
+/// was found and what is accepted. The library throws; only the program's `main` prints and exits.
 #pragma once
 
 #include <stdexcept>

@@ -9,9 +9,9 @@
 namespace transillum {
 
 struct Progress {
-    std::string_view phase;       ///< "load", "first shot", "transport", "render", ...
-    std::uint64_t done = 0;       ///< iterations, samples or rows done
-    std::uint64_t total = 0;      ///< 0 where it is not known
+    std::string_view phase;   ///< "load", "first shot", "transport", "render", ...
+    std::uint64_t done = 0;   ///< iterations, samples or rows done
+    std::uint64_t total = 0;  ///< 0 where it is not known
     double error = std::numeric_limits<double>::quiet_NaN();  ///< relative error, NaN where unknown
 };
 

@@ -24,10 +24,12 @@ struct LightSample {
 /// entry [patch * samples.size() + sample].
 /// Irradiance of a patch = sum over samples of radiance * visibility * projected_solid_angle.
 struct DirectLight {
-    std::vector<LightSample> samples;          ///< empty where no emitter needs a first shot
-    std::vector<float> projected_solid_angle;  ///< area * cos * cos' / r^2, patch mean, as if unoccluded [sr]
-    std::vector<float> visibility;             ///< seen share of that [0, 1]
-    /// Per root triangle and side (2 * root + back): its emission travels by first shot, so the iteration leaves it out.
+    std::vector<LightSample> samples;  ///< empty where no emitter needs a first shot
+    std::vector<float>
+        projected_solid_angle;      ///< area * cos * cos' / r^2, patch mean, as if unoccluded [sr]
+    std::vector<float> visibility;  ///< seen share of that [0, 1]
+    /// Per root triangle and side (2 * root + back): its emission travels by first shot, so the
+    /// iteration leaves it out.
     std::vector<std::uint8_t> shot_sides;
 };
 

@@ -17,21 +17,23 @@ enum class FirstShot {
 
 struct LightSampleOptions {
     FirstShot first_shot = FirstShot::automatic;
-    int samples = 0;                ///< a luminaire [1, 4096]; 0: chosen from how many luminaires there are
-    double large_emitter = 0.05;    ///< share of the scene's surface from which a luminaire counts as large
+    int samples = 0;  ///< a luminaire [1, 4096]; 0: chosen from how many luminaires there are
+    double large_emitter =
+        0.05;  ///< share of the scene's surface from which a luminaire counts as large
     std::uint64_t seed = 1;
 };
 
-/// Emitting root sides that touch each other and share a material form a luminaire. Samples are stratified over its
-/// area; each stands for an equal piece of it.
+/// Emitting root sides that touch each other and share a material form a luminaire. Samples are
+/// stratified over its area; each stands for an equal piece of it.
 struct Luminaires {
-    std::uint32_t count = 0, shot = 0;      ///< all, and those with samples
-    double largest_share = 0.0;             ///< of the scene's surface, among those without samples
+    std::uint32_t count = 0, shot = 0;  ///< all, and those with samples
+    double largest_share = 0.0;         ///< of the scene's surface, among those without samples
     std::vector<LightSample> samples;
-    std::vector<std::uint8_t> shot_sides;   ///< see DirectLight
+    std::vector<std::uint8_t> shot_sides;  ///< see DirectLight
 };
 
 /// \throws UsageError for a count outside its range.
-[[nodiscard]] Luminaires sample_luminaires(const SurfaceMesh& mesh, const LightSampleOptions& options);
+[[nodiscard]] Luminaires sample_luminaires(const SurfaceMesh& mesh,
+                                           const LightSampleOptions& options);
 
 }  // namespace transillum

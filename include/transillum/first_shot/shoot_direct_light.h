@@ -10,14 +10,16 @@
 
 namespace transillum {
 
-/// Finds what arrives at every patch from every sample of the luminaires. The hemicubes are turned at random about
-/// their axes, so that their pixels don't fall alike. Does not depend on the number of workers. When the
-/// monitor wants to stop, nothing arrives from the samples that were still to come.
+/// Finds what arrives at every patch from every sample of the luminaires. The hemicubes are turned
+/// at random about their axes, so that their pixels don't fall alike. Does not depend on the number
+/// of workers. When the monitor wants to stop, nothing arrives from the samples that were still to
+/// come.
 [[nodiscard]] DirectLight shoot_direct_light(const SurfaceMesh& mesh, const PatchHierarchy& patches,
                                              const Luminaires& luminaires, int hemicube_resolution,
                                              const Workers& workers, Monitor& monitor);
 
 /// Irradiance by first shot, one a patch [W m^-2].
-[[nodiscard]] std::vector<Spectrum> direct_irradiance(const DirectLight& light, std::uint32_t patch_count);
+[[nodiscard]] std::vector<Spectrum> direct_irradiance(const DirectLight& light,
+                                                      std::uint32_t patch_count);
 
 }  // namespace transillum

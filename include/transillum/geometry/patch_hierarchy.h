@@ -19,9 +19,9 @@ namespace transillum {
 
 inline constexpr int max_subdivision_level = 11;
 
-/// Number of a leaf within a root of `level`, from barycentric coordinates (b1, b2) of the root's second
-/// and third vertex. Rows run along b1; a row holds upright and turned triangles alternately. Coordinates
-/// a rounding error outside the triangle are taken to the nearest leaf.
+/// Number of a leaf within a root of `level`, from barycentric coordinates (b1, b2) of the root's
+/// second and third vertex. Rows run along b1; a row holds upright and turned triangles
+/// alternately. Coordinates a rounding error outside the triangle are taken to the nearest leaf.
 [[nodiscard]] inline std::uint32_t leaf_in_root(int level, float b1, float b2) {
     const float n = static_cast<float>(1 << level);
     const float last = n - n * 0x1p-22f;
@@ -38,11 +38,11 @@ inline constexpr int max_subdivision_level = 11;
 
 struct RootPatches {
     std::uint32_t first_leaf = 0;
-    std::int32_t level = 0;      ///< uniform subdivision: 4^level leaves
+    std::int32_t level = 0;  ///< uniform subdivision: 4^level leaves
 };
 
 struct PatchHierarchy {
-    std::vector<RootPatches> roots;          ///< one a root triangle
+    std::vector<RootPatches> roots;  ///< one a root triangle
     std::vector<std::uint32_t> root_of_leaf;
     std::uint32_t leaf_count = 0;
 
@@ -58,23 +58,29 @@ struct PatchHierarchy {
 
 /// Corners of a leaf as integer barycentric coordinates (b1, b2) in units of 2^-level of its root,
 /// counter-clockwise as the root's.
-[[nodiscard]] std::array<glm::ivec2, 3> leaf_corners(const PatchHierarchy& patches, std::uint32_t leaf);
+[[nodiscard]] std::array<glm::ivec2, 3> leaf_corners(const PatchHierarchy& patches,
+                                                     std::uint32_t leaf);
 
 /// The point of a root at (b1, b2) / 2^level; exact for snapped vertices.
-[[nodiscard]] glm::dvec3 point_of_root(const SurfaceMesh& mesh, std::uint32_t root, glm::ivec2 b, int level);
+[[nodiscard]] glm::dvec3 point_of_root(const SurfaceMesh& mesh, std::uint32_t root, glm::ivec2 b,
+                                       int level);
 
 /// Area of every leaf of a root [square scene units].
-[[nodiscard]] double leaf_area(const SurfaceMesh& mesh, const PatchHierarchy& patches, std::uint32_t root);
+[[nodiscard]] double leaf_area(const SurfaceMesh& mesh, const PatchHierarchy& patches,
+                               std::uint32_t root);
 
 struct SubdivisionOptions {
-    double patch_size = 0.0;        ///< longest edge a leaf may have [scene units]; 0: from leaf_target
-    std::uint32_t leaf_target = 0;  ///< the size is chosen so that there are about this many leaves; 0: 30000 more than triangles
+    double patch_size = 0.0;  ///< longest edge a leaf may have [scene units]; 0: from leaf_target
+    std::uint32_t leaf_target = 0;  ///< the size is chosen so that there are about this many
+                                    ///< leaves; 0: 30000 more than triangles
     int max_level = 8;              ///< at most max_subdivision_level
 };
 
 /// Subdivides every root until its leaves' longest edge is at most the patch size.
-/// \throws UsageError on a negative size, a level outside [0, max_subdivision_level], or above 2^30 leaves.
-[[nodiscard]] PatchHierarchy subdivide_uniformly(const SurfaceMesh& mesh, const SubdivisionOptions& options);
+/// \throws UsageError on a negative size, a level outside [0, max_subdivision_level], or above 2^30
+/// leaves.
+[[nodiscard]] PatchHierarchy subdivide_uniformly(const SurfaceMesh& mesh,
+                                                 const SubdivisionOptions& options);
 
 /// A hierarchy of given levels, one a root.
 [[nodiscard]] PatchHierarchy subdivide_to_levels(const std::vector<int>& levels);

@@ -10,14 +10,16 @@ namespace transillum {
 
 /// Which sides of a surface reflect and emit.
 enum class Sides {
-    file,  ///< as the file says: glTF `doubleSided`; OBJ, PLY, STL, OFF: both reflect, the front emits
+    file,  ///< as the file says: glTF `doubleSided`; OBJ, PLY, STL, OFF: both reflect, the front
+           ///< emits
     one,   ///< the back of every surface is black
     two    ///< both sides reflect and emit alike
 };
 
 struct LoadOptions {
     Sides sides = Sides::file;
-    bool drop_transparent = false;  ///< leave out surfaces whose opacity is below 1 instead of treating them as opaque
+    bool drop_transparent =
+        false;  ///< leave out surfaces whose opacity is below 1 instead of treating them as opaque
 };
 
 /// Loads a scene and proves that what was read is what the file holds: counts, indices, finite

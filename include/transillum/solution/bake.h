@@ -17,17 +17,18 @@ struct BakeOptions {
     SurfaceOptions surface;
     SubdivisionOptions subdivision;
     LightSampleOptions light;
-    IterationOptions iteration;   ///< its pixel size and seed are set from the fields below
+    IterationOptions iteration;  ///< its pixel size and seed are set from the fields below
     int hemicube_resolution = 512;
-    int resolution = 0;           ///< pixels across the transillumination buffer; 0: three a leaf's edge
+    int resolution = 0;  ///< pixels across the transillumination buffer; 0: three a leaf's edge
     std::uint64_t seed = 1;
 };
 
 /// Scene -> SurfaceMesh + PatchHierarchy -> DirectLight -> transport -> Solution.
 /// \param run filled with thread count and wall time by phase, where given.
-/// \pre the scene's albedos are limited (limit_albedo). When the monitor wants to stop, what is done so far is a valid
-/// solution. \throws InputError when the scene has no surface or no light; UsageError.
-[[nodiscard]] Solution bake(const Scene& scene, const BakeOptions& options, const Workers& workers, Monitor& monitor,
-                            RunRecord* run = nullptr);
+/// \pre the scene's albedos are limited (limit_albedo). When the monitor wants to stop, what is
+/// done so far is a valid solution. \throws InputError when the scene has no surface or no light;
+/// UsageError.
+[[nodiscard]] Solution bake(const Scene& scene, const BakeOptions& options, const Workers& workers,
+                            Monitor& monitor, RunRecord* run = nullptr);
 
 }  // namespace transillum

@@ -8,8 +8,9 @@
 
 namespace transillum {
 
-/// \throws InputError naming the file and array when it is truncated, corrupt, foreign, or of a newer
-/// format; IoError when it cannot be read. Values are checked: finite, in range, indices within bounds.
+/// \throws InputError naming the file and array when it is truncated, corrupt, foreign, or of a
+/// newer format; IoError when it cannot be read. Values are checked: finite, in range, indices
+/// within bounds.
 [[nodiscard]] Solution load_solution(const std::filesystem::path& path);
 
 /// The record that lies beside a solution; empty where there is none.

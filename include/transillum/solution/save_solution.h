@@ -1,11 +1,11 @@
 /// Solution files: VTK XML, readable by ParaView and any VTK program.
 ///
-///   NAME.vtm            written last and atomically: the index; its presence says the solution is whole
-///   NAME/radiance.vtp   one cell a patch that reflects or emits and is not dark throughout its root's side
-///   NAME/incoming.vtp   per patch and light sample: what arrives by first shot (absent without light samples)
-///   NAME/lights.vtp     the light samples
-///   NAME/surface.vtp    the root triangles
-///   NAME/run.json       timings, threads, command line: all that may differ between two equal solutions
+///   NAME.vtm            written last and atomically: the index; its presence says the solution is
+///   whole NAME/radiance.vtp   one cell a patch that reflects or emits and is not dark throughout
+///   its root's side NAME/incoming.vtp   per patch and light sample: what arrives by first shot
+///   (absent without light samples) NAME/lights.vtp     the light samples NAME/surface.vtp    the
+///   root triangles NAME/run.json       timings, threads, command line: all that may differ between
+///   two equal solutions
 #pragma once
 
 #include <transillum/solution/solution.h>
@@ -26,12 +26,14 @@ struct RunRecord {
     std::vector<std::pair<std::string, double>> seconds;  ///< wall time by phase
 };
 
-/// Writes into a temporary folder beside the target and renames; an older solution of that name stays
-/// whole until then. Bytes of the VTK files depend on the solution alone. Of a side that is dark
-/// throughout nothing is kept: it loads with zeros, coverage and visibility among them.
-/// \throws UsageError unless `path` ends in .vtm; Error where the solution contradicts itself or holds a
-/// value that is not finite or out of range; IoError where it cannot write, or where NAME is a folder with
-/// files that are none of a solution's. Nothing is left behind then, and nothing changed.
-void save_solution(const Solution& solution, const RunRecord& run, const std::filesystem::path& path);
+/// Writes into a temporary folder beside the target and renames; an older solution of that name
+/// stays whole until then. Bytes of the VTK files depend on the solution alone. Of a side that is
+/// dark throughout nothing is kept: it loads with zeros, coverage and visibility among them.
+/// \throws UsageError unless `path` ends in .vtm; Error where the solution contradicts itself or
+/// holds a value that is not finite or out of range; IoError where it cannot write, or where NAME
+/// is a folder with files that are none of a solution's. Nothing is left behind then, and nothing
+/// changed.
+void save_solution(const Solution& solution, const RunRecord& run,
+                   const std::filesystem::path& path);
 
 }  // namespace transillum

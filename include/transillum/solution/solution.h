@@ -21,10 +21,11 @@ struct Decision {
 
 /// Total flux [W] (radiance unit * sr * square scene units) by where it went.
 struct EnergyBalance {
-    SpectrumSum emitted{0.0};      ///< by all emitters
-    SpectrumSum absorbed{0.0};     ///< by patches
-    SpectrumSum escaped{0.0};      ///< out of the scene (estimate of the iteration and the first shot)
-    SpectrumSum black_backs{0.0};  ///< met the back of a one-sided surface: a mesh wound inside out, or a leak
+    SpectrumSum emitted{0.0};   ///< by all emitters
+    SpectrumSum absorbed{0.0};  ///< by patches
+    SpectrumSum escaped{0.0};   ///< out of the scene (estimate of the iteration and the first shot)
+    SpectrumSum black_backs{
+        0.0};  ///< met the back of a one-sided surface: a mesh wound inside out, or a leak
 };
 
 struct Solution {
@@ -33,24 +34,27 @@ struct Solution {
     DirectLight direct;
     std::vector<Camera> cameras;
 
-    // One a patch (PatchHierarchy: fronts, then backs). Sides that neither reflect nor emit hold zeros.
+    // One a patch (PatchHierarchy: fronts, then backs). Sides that neither reflect nor emit hold
+    // zeros.
     std::vector<Spectrum> direct_irradiance;    ///< by first shot [W m^-2]
     std::vector<Spectrum> indirect_irradiance;  ///< by the iteration [W m^-2]
     std::vector<Spectrum> standard_error;       ///< of the finite-element radiance [W sr^-1 m^-2]
     std::vector<float> coverage;                ///< fragments seen, summed over directions
 
-    std::uint64_t iterations = 0;               ///< directions transferred, each both ways
+    std::uint64_t iterations = 0;  ///< directions transferred, each both ways
     std::uint64_t seed = 0;
-    double relative_error = 0.0;                ///< estimated: root of the area-weighted mean squared error of the indirect irradiance, over its mean
-    bool interrupted = false;                   ///< stopped by the user before any criterion was met
+    double relative_error = 0.0;  ///< estimated: root of the area-weighted mean squared error of
+                                  ///< the indirect irradiance, over its mean
+    bool interrupted = false;     ///< stopped by the user before any criterion was met
     EnergyBalance balance;
-    std::vector<Decision> decisions;            ///< what was skipped or chosen, with the reason
+    std::vector<Decision> decisions;  ///< what was skipped or chosen, with the reason
     /// Options the result depends on, by name (never thread count, file names or times).
     std::vector<std::pair<std::string, std::string>> settings;
-    std::string scene_hash;                     ///< of the geometry and materials that were baked, hexadecimal
+    std::string scene_hash;  ///< of the geometry and materials that were baked, hexadecimal
 
     [[nodiscard]] const Material& material_of(std::uint32_t patch) const {
-        return surface.materials[surface.triangles[patches.root_of_leaf[patches.leaf_of_patch(patch)]].material];
+        return surface.materials
+            [surface.triangles[patches.root_of_leaf[patches.leaf_of_patch(patch)]].material];
     }
     /// False for the black back of a one-sided surface.
     [[nodiscard]] bool reflects(std::uint32_t patch) const {

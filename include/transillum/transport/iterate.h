@@ -20,8 +20,9 @@ enum class Averaging {
 struct IterationOptions {
     std::uint64_t iterations = 1024;  ///< most directions, each transferred both ways
     double target_error = 0.0;        ///< stop when the estimated relative error is below; 0: never
-    double seconds = 0.0;             ///< stop after that time; 0: never. The result then depends on the machine's speed
-    double pixel_size = 0.0;          ///< of the transillumination buffer [scene units]
+    double seconds =
+        0.0;  ///< stop after that time; 0: never. The result then depends on the machine's speed
+    double pixel_size = 0.0;  ///< of the transillumination buffer [scene units]
     std::uint64_t seed = 1;
     Averaging averaging = Averaging::balanced;
 };
@@ -34,21 +35,25 @@ struct PatchSources {
 };
 
 struct TransportResult {
-    std::vector<Spectrum> irradiance;      ///< one a patch, of emission and direct after any number of reflections [W m^-2]
-    /// Of the irradiance [W m^-2], from the spread between blocks of directions; it overstates, as blocks of a
-    /// low-discrepancy sequence make up for each other. As large as the irradiance where there were too few blocks to tell.
+    std::vector<Spectrum> irradiance;  ///< one a patch, of emission and direct after any number of
+                                       ///< reflections [W m^-2]
+    /// Of the irradiance [W m^-2], from the spread between blocks of directions; it overstates, as
+    /// blocks of a low-discrepancy sequence make up for each other. As large as the irradiance
+    /// where there were too few blocks to tell.
     std::vector<Spectrum> standard_error;
-    std::vector<float> coverage;           ///< fragments seen, over all directions
+    std::vector<float> coverage;  ///< fragments seen, over all directions
     std::uint64_t iterations = 0;
-    double relative_error = 0.0;           ///< root of the area-weighted mean of squared errors over the mean irradiance; 1 where unknown
+    double relative_error = 0.0;  ///< root of the area-weighted mean of squared errors over the
+                                  ///< mean irradiance; 1 where unknown
     bool interrupted = false;
-    SpectrumSum escaped{0.0};              ///< flux that left the scene [radiance * sr * square scene units]
-    std::uint64_t fragments = 0;           ///< exchanged, over all directions
+    SpectrumSum escaped{0.0};     ///< flux that left the scene [radiance * sr * square scene units]
+    std::uint64_t fragments = 0;  ///< exchanged, over all directions
 };
 
-/// \pre every vector of `sources` has patches.patch_count() finite, non-negative entries, albedo at most 1.
-/// \throws UsageError when light would never fade: nothing absorbs and nothing leaves the scene.
-/// The result depends neither on the number of workers nor, unless time stops it, on the machine.
+/// \pre every vector of `sources` has patches.patch_count() finite, non-negative entries, albedo at
+/// most 1. \throws UsageError when light would never fade: nothing absorbs and nothing leaves the
+/// scene. The result depends neither on the number of workers nor, unless time stops it, on the
+/// machine.
 [[nodiscard]] TransportResult iterate(const SurfaceMesh& mesh, const PatchHierarchy& patches,
                                       const PatchSources& sources, const IterationOptions& options,
                                       const Workers& workers, Monitor& monitor);

@@ -1,5 +1,5 @@
-/// What a point sees through the five faces of a hemicube (paper §4), by the same scan conversion as the
-/// transillumination buffer.
+/// What a point sees through the five faces of a hemicube (paper §4), by the same scan conversion
+/// as the transillumination buffer.
 #pragma once
 
 #include <transillum/geometry/patch_hierarchy.h>
@@ -14,7 +14,8 @@ namespace transillum {
 
 /// A small surface element, seen from a point of unit area density: geometry only.
 struct PatchView {
-    /// Mean over the patch of cos * cos' / r^2, cos at the point and cos' at the patch, as if unoccluded [1 / square unit].
+    /// Mean over the patch of cos * cos' / r^2, cos at the point and cos' at the patch, as if
+    /// unoccluded [1 / square unit].
     float mean_kernel = 0.0f;
     float visibility = 0.0f;  ///< seen share of it [0, 1]
 };
@@ -28,17 +29,18 @@ public:
     ~Hemicube();
 
     /// The view from `position`, upwards along the third column of `frame`. One entry a patch.
-    /// Where patches have some dozens of pixels, flux is kept: the sum of area * mean_kernel * visibility over them
-    /// is the cosine-weighted solid angle (at most pi) under which they are seen.
+    /// Where patches have some dozens of pixels, flux is kept: the sum of area * mean_kernel *
+    /// visibility over them is the cosine-weighted solid angle (at most pi) under which they are
+    /// seen.
     const std::vector<PatchView>& look(const glm::dvec3& position, const glm::dmat3& frame);
 
 private:
     struct Face;
     /// Sums over the pixels of a patch; float would lose the last pixels of a large one.
     struct PatchSums {
-        double seen = 0.0;      ///< cosine-weighted solid angle, where nearest
-        double covered = 0.0;   ///< the same, where present at all
-        double area = 0.0;      ///< surface behind these pixels
+        double seen = 0.0;     ///< cosine-weighted solid angle, where nearest
+        double covered = 0.0;  ///< the same, where present at all
+        double area = 0.0;     ///< surface behind these pixels
         std::uint32_t pixels = 0;
     };
     struct Pixel {

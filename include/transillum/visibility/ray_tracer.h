@@ -1,5 +1,5 @@
-/// Rays against the root triangles (Embree). For the eye, for shadow rays when rendering, and for the
-/// reference; the bake's transport has its own buffers.
+/// Rays against the root triangles (Embree). For the eye, for shadow rays when rendering, and for
+/// the reference; the bake's transport has its own buffers.
 #pragma once
 
 #include <transillum/geometry/surface_mesh.h>
@@ -20,9 +20,9 @@ struct Ray {
 struct Hit {
     static constexpr std::uint32_t none = 0xffffffffu;
     std::uint32_t root = none;
-    float b1 = 0.0f, b2 = 0.0f;   ///< barycentric coordinates of the root's second and third vertex
+    float b1 = 0.0f, b2 = 0.0f;  ///< barycentric coordinates of the root's second and third vertex
     float distance = 0.0f;
-    bool back = false;            ///< the back was met
+    bool back = false;  ///< the back was met
     explicit operator bool() const { return root != none; }
 };
 
@@ -36,13 +36,14 @@ public:
     RayTracer& operator=(RayTracer&&) noexcept;
 
     [[nodiscard]] Hit intersect(const Ray& ray) const;
-    /// Is anything between two points? Both ends are kept clear of the surfaces they lie on, on the side
-    /// of the other end. Normals are unit, of either sign; zero for a point in free space.
+    /// Is anything between two points? Both ends are kept clear of the surfaces they lie on, on the
+    /// side of the other end. Normals are unit, of either sign; zero for a point in free space.
     [[nodiscard]] bool occluded(const glm::dvec3& from, const glm::dvec3& from_normal,
                                 const glm::dvec3& to, const glm::dvec3& to_normal) const;
     /// How far a ray's origin is to be moved along the normal to clear the surface: proportional to
-    /// the rounding of single-precision coordinates at that distance from the scene's centre, within
-    /// the scene at that of its bounds (a large triangle's plane is as inexact as its corners).
+    /// the rounding of single-precision coordinates at that distance from the scene's centre,
+    /// within the scene at that of its bounds (a large triangle's plane is as inexact as its
+    /// corners).
     [[nodiscard]] double clearance(const glm::dvec3& point) const;
 
 private:

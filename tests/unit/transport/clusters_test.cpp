@@ -1,5 +1,5 @@
-#include "support/scene_builder.h"
 #include "transport/clusters.h"
+#include "support/scene_builder.h"
 
 #include <gtest/gtest.h>
 
@@ -38,8 +38,10 @@ TEST(Clusters, NeverJoinTheSidesOfAWallNorTwoRooms) {
     const Clusters clusters = make_clusters(mesh, patches);
     std::map<int, std::set<std::pair<bool, bool>>> members;  // cluster -> (second room, back)
     for (std::uint32_t p = 0; p < patches.patch_count(); ++p)
-        members[clusters.of_patch[p]].insert({patches.root_of_leaf[patches.leaf_of_patch(p)] >= 12, patches.is_back(p)});
-    for (const auto& [cluster, kinds] : members) EXPECT_EQ(kinds.size(), 1u) << "cluster " << cluster;
+        members[clusters.of_patch[p]].insert(
+            {patches.root_of_leaf[patches.leaf_of_patch(p)] >= 12, patches.is_back(p)});
+    for (const auto& [cluster, kinds] : members)
+        EXPECT_EQ(kinds.size(), 1u) << "cluster " << cluster;
 }
 
 TEST(Clusters, OfASingleTriangleAreItsSides) {

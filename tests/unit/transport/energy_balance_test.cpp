@@ -1,4 +1,5 @@
-// Infinite parallel plates: two patches that see nothing but each other. B1 = M / (1 - rho1 rho2), B2 = rho2 B1.
+// Infinite parallel plates: two patches that see nothing but each other. B1 = M / (1 - rho1 rho2),
+// B2 = rho2 B1.
 #include "transport/energy_balance.h"
 
 #include <transillum/base/error.h>
@@ -9,7 +10,8 @@ namespace {
 
 using namespace transillum;
 
-/// Two triangles that face each other, their fronts in a cluster each, their backs in a third that nothing reaches.
+/// Two triangles that face each other, their fronts in a cluster each, their backs in a third that
+/// nothing reaches.
 class Plates : public testing::Test {
 protected:
     Plates() {
@@ -24,7 +26,8 @@ protected:
     }
 
     /// Mean radiance arriving at the second plate after one transfer straight up and the balance.
-    double arriving_at_second(float albedo_1, float albedo_2, BalanceShape shape, double escaping = 0.0) {
+    double arriving_at_second(float albedo_1, float albedo_2, BalanceShape shape,
+                              double escaping = 0.0) {
         sources_.albedo = {Spectrum(albedo_1), Spectrum(albedo_2), Spectrum(0.0f), Spectrum(0.0f)};
         FiniteElementComponent component(sources_, workers_);
         TransilluminationBuffer buffer(mesh_, patches_, 0.01);
@@ -58,8 +61,10 @@ TEST_F(Plates, AreBalancedByOneSolve) {
 }
 
 TEST_F(Plates, LoseWhatLeavesTheScene) {
-    // Half of everything escapes: arriving = 1/2 (1 + 1/2 rho1 rho2 ...) = 0.5 / (1 - 0.25 rho1 rho2).
-    EXPECT_NEAR(arriving_at_second(0.5f, 0.8f, BalanceShape::kept, 0.5), 0.5 / (1.0 - 0.25 * 0.4), 1e-6);
+    // Half of everything escapes: arriving = 1/2 (1 + 1/2 rho1 rho2 ...) = 0.5 / (1 - 0.25 rho1
+    // rho2).
+    EXPECT_NEAR(arriving_at_second(0.5f, 0.8f, BalanceShape::kept, 0.5), 0.5 / (1.0 - 0.25 * 0.4),
+                1e-6);
 }
 
 TEST_F(Plates, ThatAbsorbNothingAreRefusedUnlessLightEscapes) {

@@ -1,5 +1,5 @@
-#include "support/scene_builder.h"
 #include "transport/exchange.h"
+#include "support/scene_builder.h"
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,8 @@ protected:
         mesh_ = b.surface();
         patches_ = subdivide_to_levels(std::vector<int>(mesh_.triangles.size(), 3));
         radiance_.resize(patches_.patch_count());
-        for (std::uint32_t p = 0; p < patches_.leaf_count; ++p) radiance_[p] = Spectrum(1.0f + 0.01f * static_cast<float>(p), 0.5f, 0.0f);
+        for (std::uint32_t p = 0; p < patches_.leaf_count; ++p)
+            radiance_[p] = Spectrum(1.0f + 0.01f * static_cast<float>(p), 0.5f, 0.0f);
     }
 
     std::vector<Received> received_after(int directions, int threads) {
@@ -25,7 +26,8 @@ protected:
         TransilluminationBuffer buffer(mesh_, patches_, 0.005);
         Exchange exchange(patches_.leaf_count, {}, workers);
         exchange.set_radiance(radiance_, 1e9);
-        for (int i = 0; i < directions; ++i) exchange.transfer(buffer, sample_bundle(static_cast<std::uint32_t>(i), 7));
+        for (int i = 0; i < directions; ++i)
+            exchange.transfer(buffer, sample_bundle(static_cast<std::uint32_t>(i), 7));
         std::vector<Received> all(patches_.patch_count() + 1);
         for (std::uint32_t p = 0; p < all.size(); ++p) all[p] = exchange.take(p);
         return all;
@@ -54,7 +56,8 @@ TEST_F(Room, ReceivesExactlyWhatIsSent) {
 
 TEST_F(Room, KeepsItsOutsideDarkAndItsInsideClosed) {
     const auto received = received_after(64, 2);
-    for (std::uint32_t p = patches_.leaf_count; p < patches_.patch_count(); ++p) EXPECT_EQ(received[p].radiance, SpectrumSum(0.0));
+    for (std::uint32_t p = patches_.leaf_count; p < patches_.patch_count(); ++p)
+        EXPECT_EQ(received[p].radiance, SpectrumSum(0.0));
     EXPECT_EQ(received.back().radiance, SpectrumSum(0.0)) << "light left a closed room";
 }
 
