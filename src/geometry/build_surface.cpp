@@ -161,6 +161,7 @@ SurfaceMesh build_surface(const Scene& scene, const SurfaceOptions& options, Mon
     counts.polygons = scene.polygons.size();
     SurfaceMesh mesh;
     mesh.materials = scene.materials;
+    mesh.textures = scene.textures;
     mesh.objects = scene.objects;
     const std::vector<std::uint32_t> renumbered = weld(scene, mesh, counts);
     std::set<std::array<std::uint32_t, 3>> seen;

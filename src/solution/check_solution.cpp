@@ -72,6 +72,9 @@ void check_material(const Material& material, const Place& what) {
     check_vector(material.diffuse, 0.0, what / "diffuse albedo");
     check_vector(material.specular, 0.0, what / "specular albedo");
     check_vector(material.emission, 0.0, what / "emission");
+    if (material.lobe > Lobe::ggx)
+        throw Defect((what / "lobe").text() + ": " +
+                     std::to_string(static_cast<int>(material.lobe)) + ", at most 2 is accepted");
     check_number(material.shininess, 0.0, infinity, what / "shininess");
     check_number(material.roughness, 0.0, infinity, what / "roughness");
     check_number(material.opacity, 0.0, 1.0, what / "opacity");

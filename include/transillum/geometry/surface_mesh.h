@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,7 @@ struct SurfaceMesh {
     std::vector<glm::vec2> uvs;  ///< three a triangle, or empty
     std::uint32_t fan_count = 0;
     std::vector<Material> materials;
+    std::vector<std::shared_ptr<const Texture>> textures;
     std::vector<std::string> objects;
     SnapGrid grid;
 };

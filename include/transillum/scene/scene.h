@@ -3,31 +3,45 @@
 #pragma once
 
 #include <transillum/base/spectrum.h>
+#include <transillum/scene/lighting.h>
+#include <transillum/scene/texture.h>
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace transillum {
+
+/// The glossy lobe beside the Lambert one; see brdf.h.
+enum class Lobe : std::uint8_t { none, max_phong, ggx };
+
+/// Textures of a material, as indices into Scene::textures; -1 where it is uniform. Texels hold
+/// what the material has there (factors are multiplied in), the uniform values their mean.
+struct MaterialTextures {
+    std::int32_t diffuse = -1, specular = -1, roughness = -1, emission = -1;
+};
 
 /// Surface properties. A surface has a front, where its corners turn counter-clockwise, and a back.
 struct Material {
     std::string name;
     Spectrum diffuse{
         0.5f};  ///< Lambert albedo [1]: OBJ `Kd`, glTF base colour times (1 - metallic)
-    Spectrum specular{
-        0.0f};  ///< albedo of the glossy lobe [1]: OBJ `Ks`, glTF base colour times metallic
-    float shininess = 0.0f;     ///< OBJ `Ns`; 0 where there is no glossy lobe
-    float roughness = 1.0f;     ///< glTF roughness factor
-    Spectrum emission{0.0f};    ///< emitted radiance [W sr^-1 m^-2], the same in every direction
+    Spectrum specular{0.0f};  ///< at normal incidence, of the lobe [1]. max-Phong: its albedo, OBJ
+                              ///< `Ks`; GGX: its reflectance, glTF 0.04 to base colour by metallic
+    Lobe lobe = Lobe::none;
+    float shininess = 0.0f;   ///< exponent of the max-Phong lobe: OBJ `Ns`
+    float roughness = 1.0f;   ///< of the GGX lobe, glTF's; its alpha is the square
+    Spectrum emission{0.0f};  ///< emitted radiance [W sr^-1 m^-2], the same in every direction
+    MaterialTextures textures;
     bool back_reflects = true;  ///< else the back is black
     bool back_emits = false;
     float opacity = 1.0f;  ///< below 1 the surface is treated as opaque, with a warning
 
-    /// Reflected share of the irradiance, both lobes [1].
+    /// Bound of the reflected share of what comes along the normal, both lobes [1].
     [[nodiscard]] Spectrum albedo() const { return diffuse + specular; }
     [[nodiscard]] bool emits() const { return max_channel(emission) > 0.0f; }
 };
@@ -57,8 +71,10 @@ struct Scene {
     std::vector<glm::vec2> uvs;          ///< one a corner, or empty
     std::vector<Polygon> polygons;
     std::vector<Material> materials;
+    std::vector<std::shared_ptr<const Texture>> textures;
     std::vector<std::string> objects;  ///< names; several may be alike
     std::vector<Camera> cameras;
+    Lighting lighting;  ///< beside the materials that emit
 };
 
 }  // namespace transillum

@@ -20,7 +20,8 @@ namespace {
 template <class Struct, class Value>
 void add_member(vtkFieldData& fields, const char* name, const std::vector<Struct>& structs,
                 Value Struct::*member) {
-    using Stored = std::conditional_t<std::is_same_v<Value, bool>, std::uint8_t, Value>;
+    constexpr bool is_small = std::is_same_v<Value, bool> || std::is_enum_v<Value>;
+    using Stored = std::conditional_t<is_small, std::uint8_t, Value>;
     if constexpr (std::is_same_v<Value, std::string>) {
         std::vector<std::string> strings;
         strings.reserve(structs.size());
@@ -40,6 +41,8 @@ void read_member(const ArrayReader& reader, const char* name, std::vector<Struct
             return reader.read_strings(name, structs.size());
         } else if constexpr (std::is_same_v<Value, bool>) {
             return reader.read_flags(name, structs.size());
+        } else if constexpr (std::is_enum_v<Value>) {
+            return reader.read<std::uint8_t>(name, structs.size());
         } else {
             return reader.read<Value>(name, structs.size());
         }
@@ -53,6 +56,7 @@ void for_material_members(Each each) {
     each("MaterialName", &Material::name);
     each("MaterialDiffuse", &Material::diffuse);
     each("MaterialSpecular", &Material::specular);
+    each("MaterialLobe", &Material::lobe);
     each("MaterialShininess", &Material::shininess);
     each("MaterialRoughness", &Material::roughness);
     each("MaterialEmission", &Material::emission);

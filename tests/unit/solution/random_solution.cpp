@@ -41,6 +41,7 @@ Material random_material(Dice& dice, const Shape& shape, bool emits) {
     material.name = dice.text();
     material.diffuse = dice.spectrum();
     material.specular = dice.spectrum();
+    material.lobe = static_cast<Lobe>(dice.below(3));
     material.shininess = 100.0f * dice.real();
     material.roughness = dice.real();
     material.opacity = dice.real();
@@ -120,9 +121,10 @@ void add_summary(Dice& dice, Solution& solution) {
 // Structured bindings name every member: a member added later does not compile until it is
 // compared.
 auto tie_of(const Material& m) {
-    const auto& [name, diffuse, specular, shininess, roughness, emission, reflects, emits,
-                 opacity] = m;
-    return std::tie(name, diffuse, specular, shininess, roughness, emission, reflects, emits,
+    const auto& [name, diffuse, specular, lobe, shininess, roughness, emission, textures, reflects,
+                 emits, opacity] = m;
+    return std::tie(name, diffuse, specular, lobe, shininess, roughness, emission, textures.diffuse,
+                    textures.specular, textures.roughness, textures.emission, reflects, emits,
                     opacity);
 }
 auto tie_of(const RootTriangle& t) {
@@ -157,7 +159,7 @@ void expect_equal_structs(const std::vector<T>& a, const std::vector<T>& b) {
 }
 
 void expect_equal(const SurfaceMesh& a, const SurfaceMesh& b) {
-    const auto& [positions, triangles, uvs, fan_count, materials, objects, grid] = a;
+    const auto& [positions, triangles, uvs, fan_count, materials, textures, objects, grid] = a;
     const auto& [exponent, largest_move] = grid;
     EXPECT_TRUE(positions == b.positions);
     EXPECT_TRUE(uvs == b.uvs);

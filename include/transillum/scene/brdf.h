@@ -1,0 +1,53 @@
+/// Reflection at a point of a surface: Lambert, and at most one glossy lobe beside it.
+///
+///   max-Phong  f = ks cos^n(alpha) / max(cos theta, cos theta'), alpha from the mirror direction,
+///              ks = specular (n + 2) / (2 pi); Lambert as it is (paper §6; validation E)
+///   GGX        Trowbridge-Reitz with height-correlated Smith shadowing and Schlick's Fresnel term
+///              (glTF 2.0, appendix B); Lambert coupled by (1 - E(theta)) (1 - E(theta')) / mean,
+///              E the lobe's directional albedo in its strongest channel (Kelemen and Szirmay-Kalos
+///              2001), so that the sum is reciprocal and never reflects more than comes in
+///
+/// Directions are unit and point away from the surface, in a local frame whose z is the normal.
+/// Both must be above the surface; otherwise values and densities are 0.
+#pragma once
+
+#include <transillum/scene/scene.h>
+
+#include <glm/vec2.hpp>
+
+namespace transillum {
+
+struct Brdf {
+    Spectrum diffuse{0.0f}, specular{0.0f};  ///< as in Material
+    Lobe lobe = Lobe::none;
+    float shininess = 0.0f;  ///< max-Phong
+    float alpha = 1.0f;      ///< GGX: roughness squared, at least least_alpha
+};
+
+/// Sharper GGX lobes are taken for this one.
+inline constexpr float least_alpha = 1e-3f;
+
+/// Of the material's uniform values. A lobe that reflects nothing is left out.
+[[nodiscard]] Brdf brdf_of(const Material& material);
+
+/// Values [1 / sr], diffuse part and lobe.
+[[nodiscard]] Spectrum evaluate(const Brdf& brdf, const glm::vec3& in, const glm::vec3& out);
+[[nodiscard]] Spectrum evaluate_lobe(const Brdf& brdf, const glm::vec3& in, const glm::vec3& out);
+
+/// Share [1] of light from an angle that is reflected: the whole, and by the lobe alone.
+[[nodiscard]] Spectrum directional_albedo(const Brdf& brdf, float cos_theta);
+[[nodiscard]] Spectrum lobe_albedo(const Brdf& brdf, float cos_theta);
+/// Diffuse value = diffuse / pi * diffuse_coupling(in) * diffuse_coupling(out) / mean, the mean of
+/// the coupling over the cosine-weighted hemisphere. 1 unless the lobe is GGX.
+[[nodiscard]] float diffuse_coupling(const Brdf& brdf, float cos_theta);
+[[nodiscard]] float mean_diffuse_coupling(const Brdf& brdf);
+/// Reflected share of uniform light, both lobes [1].
+[[nodiscard]] Spectrum mean_albedo(const Brdf& brdf);
+
+/// A direction for light to come from, given where it goes. \param choice picks the lobe, in [0, 1)
+[[nodiscard]] glm::vec3 sample_direction(const Brdf& brdf, const glm::vec3& out, float choice,
+                                         glm::vec2 u);
+/// Density [1 / sr] with which it is sampled.
+[[nodiscard]] float direction_density(const Brdf& brdf, const glm::vec3& in, const glm::vec3& out);
+
+}  // namespace transillum
