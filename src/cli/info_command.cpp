@@ -50,6 +50,7 @@ Json describe(const Solution& s, const RunRecord& run) {
             {"mean_indirect_irradiance", mean_irradiance(s, s.indirect_irradiance)},
             {"flux",
              {{"emitted", channels(s.balance.emitted)},
+              {"entered", channels(s.balance.entered)},
               {"absorbed", channels(s.balance.absorbed)},
               {"escaped", channels(s.balance.escaped)},
               {"black_backs", channels(s.balance.black_backs)}}},

@@ -93,6 +93,15 @@ PatchHierarchy subdivide_to_levels(const std::vector<int>& levels) {
     return patches;
 }
 
+glm::dvec3 leaf_centre(const SurfaceMesh& mesh, const PatchHierarchy& patches,
+                       std::uint32_t leaf) {
+    const std::uint32_t root = patches.root_of_leaf[leaf];
+    glm::dvec3 sum(0.0);
+    for (const glm::ivec2 corner : leaf_corners(patches, leaf))
+        sum += point_of_root(mesh, root, corner, patches.roots[root].level);
+    return sum / 3.0;
+}
+
 PatchHierarchy subdivide_uniformly(const SurfaceMesh& mesh, const SubdivisionOptions& options) {
     if (!(options.patch_size >= 0.0) || std::isinf(options.patch_size))
         throw UsageError("patch size " + std::to_string(options.patch_size) +

@@ -4,6 +4,8 @@
 #include <transillum/solution/bake.h>
 #include <transillum/visibility/transillumination_buffer.h>
 
+#include "solution/patch_sources.h"
+
 #include <fmt/format.h>
 
 #include <bit>
@@ -57,28 +59,6 @@ double automatic_pixel_size(const SurfaceMesh& mesh, const PatchHierarchy& patch
                       pixel_size_for(mesh, least_resolution));
 }
 
-PatchSources make_sources(const Solution& s) {
-    const std::uint32_t n = s.patches.patch_count();
-    PatchSources sources{std::vector<Spectrum>(n), std::vector<Spectrum>(n),
-                         std::vector<Spectrum>(n)};
-    for (std::uint32_t p = 0; p < n; ++p) {
-        const std::uint32_t root = s.patches.root_of_leaf[s.patches.leaf_of_patch(p)];
-        const bool shot = s.direct.shot_sides[2 * root + (s.patches.is_back(p) ? 1 : 0)] != 0;
-        sources.albedo[p] = s.reflects(p) ? s.material_of(p).albedo() : Spectrum(0.0f);
-        sources.emission[p] = shot ? Spectrum(0.0f) : s.emission(p);
-        sources.direct[p] = s.direct_radiance(p);
-    }
-    return sources;
-}
-
-/// Is there anything for the iteration to carry, and anything that could reflect it?
-bool needs_transport(const PatchSources& sources) {
-    for (std::size_t p = 0; p < sources.albedo.size(); ++p)
-        if (max_channel(sources.emission[p]) > 0.0f || max_channel(sources.direct[p]) > 0.0f)
-            return true;
-    return false;
-}
-
 /// 64-bit FNV-1a over what light sees of a scene.
 class SceneHash {
 public:
@@ -104,16 +84,30 @@ std::string hash_scene(const SurfaceMesh& mesh) {
         h.add(std::uint64_t{t.material});
     }
     for (const Material& m : mesh.materials) {
-        h.add(m.albedo());
+        h.add(m.diffuse);
+        h.add(m.specular);
+        h.add(static_cast<std::uint64_t>(m.lobe));
+        h.add(double{m.shininess});
+        h.add(double{m.roughness});
         h.add(m.emission);
         h.add(std::uint64_t{m.back_reflects} | std::uint64_t{m.back_emits} << 1);
     }
     return h.text();
 }
 
-EnergyBalance measure_balance(const Solution& s, const SpectrumSum& escaped_in_transport) {
+/// Of uniform light, by both lobes.
+Spectrum reflected_share(const Solution& s, std::uint32_t patch) {
+    const GlossySide* const side = s.glossy_side(patch);
+    if (!side) return s.diffuse(patch);
+    Brdf brdf = s.glossy.brdfs[side->brdf];
+    brdf.diffuse = s.diffuse(patch);
+    return mean_albedo(brdf);
+}
+
+EnergyBalance measure_balance(const Solution& s, const TransportResult& transport) {
     EnergyBalance balance;
-    balance.escaped = escaped_in_transport;
+    balance.escaped = transport.escaped;
+    balance.entered = transport.entered;
     SpectrumSum shot(0.0), arrived(0.0);
     for (const LightSample& l : s.direct.samples)
         shot += SpectrumSum(l.radiance) * (std::numbers::pi * l.area);
@@ -124,8 +118,9 @@ EnergyBalance measure_balance(const Solution& s, const SpectrumSum& escaped_in_t
         const SpectrumSum flux = direct + area * SpectrumSum(s.indirect_irradiance[p]);
         arrived += direct;
         balance.emitted += area * std::numbers::pi * SpectrumSum(s.emission(p));
+        const SpectrumSum reflected(s.direct_radiance(p) + s.finite_element_radiance(p));
         if (s.reflects(p))
-            balance.absorbed += flux * (1.0 - SpectrumSum(s.material_of(p).albedo()));
+            balance.absorbed += flux - area * std::numbers::pi * reflected;
         else
             balance.black_backs += flux;
     }
@@ -149,6 +144,23 @@ void decide_first_shot(const Luminaires& luminaires, FirstShot choice,
                                   : fmt::format("every luminaire is large (up to {:.0f} % of the "
                                                 "surface): cheaper in the iteration",
                                                 100.0 * luminaires.largest_share)});
+}
+
+/// How many direction bins patches have, and what they can't hold.
+void decide_bins(const Solution& s, const BinOptions& options, std::vector<Decision>& decisions) {
+    if (s.glossy.empty()) {
+        decisions.push_back({"one direction bin a patch", "no surface has a glossy lobe"});
+        return;
+    }
+    std::uint64_t patches = 0, bins = 0;
+    for (const GlossySide& side : s.glossy.sides) {
+        patches += side.leaf_count;
+        bins += std::uint64_t{side.leaf_count} * bin_count(side.bin_level);
+    }
+    decisions.push_back({fmt::format("{} direction bins on {} glossy patches, one on all others",
+                                     bins, patches),
+                         options.level < 0 ? "by the width and weight of their lobes"
+                                           : "asked for"});
 }
 
 void note_decisions(const Solution& s, Monitor& monitor) {
@@ -186,6 +198,8 @@ Solution bake(const Scene& scene, const BakeOptions& options, const Workers& wor
     require_light(scene, s.surface);
     s.patches = subdivide_uniformly(s.surface, options.subdivision);
     s.scene_hash = hash_scene(s.surface);
+    s.glossy = lay_out_glossy_sides(s.surface, s.patches, choose_bin_levels(s.surface, options.bins));
+    decide_bins(s, options.bins, s.decisions);
     watch.lap("geometry");
 
     LightSampleOptions light = options.light;
@@ -203,11 +217,10 @@ Solution bake(const Scene& scene, const BakeOptions& options, const Workers& wor
     iteration.pixel_size = options.resolution > 0 ? pixel_size_for(s.surface, options.resolution)
                                                   : automatic_pixel_size(s.surface, s.patches);
     const PatchSources sources = make_sources(s);
-    if (!needs_transport(sources)) {
+    if (!shines(sources)) {
         iteration.iterations = 0;
         s.decisions.push_back({"no iteration", "no surface reflects the direct light"});
     }
-    s.decisions.push_back({"one direction bin a patch", "every surface is taken as diffuse"});
     s.decisions.push_back({"no environment", "the scene has none"});
     TransportResult transport = iterate(s.surface, s.patches, sources, iteration, workers, monitor);
     watch.lap("transport");
@@ -215,12 +228,13 @@ Solution bake(const Scene& scene, const BakeOptions& options, const Workers& wor
     s.indirect_irradiance = std::move(transport.irradiance);
     s.coverage = std::move(transport.coverage);
     s.standard_error = std::move(transport.standard_error);
+    s.glossy_elements = std::move(transport.glossy_elements);
     for (std::uint32_t p = 0; p < s.patches.patch_count(); ++p)
-        s.standard_error[p] *= sources.albedo[p] / static_cast<float>(std::numbers::pi);
+        s.standard_error[p] *= reflected_share(s, p) / static_cast<float>(std::numbers::pi);
     s.iterations = transport.iterations;
     s.relative_error = transport.relative_error;
     s.interrupted = s.interrupted || transport.interrupted;
-    s.balance = measure_balance(s, transport.escaped);
+    s.balance = measure_balance(s, transport);
     note_decisions(s, monitor);
     if (run) run->threads = workers.count();
     return s;

@@ -172,6 +172,7 @@ void check_camera(const Camera& camera, const Place& what) {
 void check_summary(const Solution& solution) {
     check_number(solution.relative_error, 0.0, infinity, "relative error");
     check_vector(solution.balance.emitted, -infinity, "emitted energy");
+    check_vector(solution.balance.entered, -infinity, "energy from the environment");
     check_vector(solution.balance.absorbed, -infinity, "absorbed energy");
     check_vector(solution.balance.escaped, -infinity, "escaped energy");
     check_vector(solution.balance.black_backs, -infinity, "energy on black backs");
@@ -201,6 +202,11 @@ std::string find_defect(const Solution& solution) try {
     check_spectra(solution.indirect_irradiance, patches, "indirect irradiance of patch");
     check_spectra(solution.standard_error, patches, "standard error of patch");
     check_table(solution.coverage, patches, infinity, "coverage of patch");
+    for (const GlossySide& side : solution.glossy.sides)
+        if (solution.glossy.brdfs[side.brdf].lobe == Lobe::none)
+            throw Defect("triangle " + std::to_string(side.root) +
+                         ": direction bins on a side without a lobe");
+    check_spectra(solution.glossy_elements, solution.glossy.element_count, "glossy element");
     check_summary(solution);
     return {};
 } catch (const Defect& defect) {

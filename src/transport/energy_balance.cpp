@@ -32,12 +32,11 @@ std::vector<ClusterState> measure_clusters(const FiniteElementComponent& compone
         const double c = component.coverage(p);
         if (c == 0.0) continue;
         ClusterState& s = states[clusters.of_patch[p]];
-        const SpectrumSum incoming = component.incoming(p), albedo(sources.albedo[p]);
         s.coverage += c;
-        s.incoming += c * incoming;
-        s.reflected += c * albedo * incoming;
-        s.source += c * SpectrumSum(sources.emission[p] + sources.direct[p]);
-        s.albedo += c * albedo;
+        s.incoming += c * component.incoming(p);
+        s.reflected += c * component.reflected(p);
+        s.source += c * (SpectrumSum(sources.emission[p]) + SpectrumSum(sources.direct[p]));
+        s.albedo += c * component.mean_albedo(p);
     }
     return states;
 }
@@ -92,8 +91,10 @@ std::vector<double> solve_channel(const std::vector<ClusterState>& states,
                                                 : s.reflected[channel] / s.incoming[channel];
         for (std::uint32_t j = 0; j < n; ++j)
             matrix[i * (n + 1) + j] = (i == j ? 1.0 : 0.0) - albedo * share(i, j);
-        matrix[i * (n + 1) + n] =
-            s.coverage == 0.0 ? 0.0 : seen[i] * s.source[channel] / s.coverage;
+        matrix[i * (n + 1) + n] = s.coverage == 0.0
+                                      ? 0.0
+                                      : seen[i] * s.source[channel] / s.coverage +
+                                            albedo * transfer.at(i, n).radiance[channel];
     }
     if (!solve(matrix, n, flux))
         throw UsageError(
@@ -101,6 +102,7 @@ std::vector<double> solve_channel(const std::vector<ClusterState>& states,
             " and none leaves the scene, so it would never fade; accepted: a lower maximum");
     std::vector<double> incoming(n);
     for (std::uint32_t i = 0; i < n; ++i) {
+        incoming[i] = transfer.at(i, n).radiance[channel];
         for (std::uint32_t j = 0; j < n; ++j) incoming[i] += share(i, j) * flux[j];
         if (seen[i] > 0.0) incoming[i] /= seen[i];
     }

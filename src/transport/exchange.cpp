@@ -42,37 +42,57 @@ Exchange::Exchange(std::uint32_t leaf_count, const Clusters& clusters, const Wor
     : leaf_count_(leaf_count),
       cluster_count_(clusters.count),
       workers_(workers),
-      radiance_(2 * std::size_t{leaf_count} + 1),
+      radiance_(2 * std::size_t{leaf_count}),
       partials_(workers.count()) {
     if (cluster_count_ > 0) {
-        cluster_.resize(radiance_.size());
+        cluster_.resize(radiance_.size() + 1);
         for (std::uint32_t p = 0; p < clusters.of_patch.size(); ++p)
             cluster_[slot_of(p)] = clusters.of_patch[p];
     }
     for (Partial& p : partials_) {
-        p.received.resize(radiance_.size());
+        p.received.resize(radiance_.size() + 1);
         p.transfer.resize(std::size_t{cluster_count_ + 1} * (cluster_count_ + 1));
     }
-    radiance_.back().lane =
-        FixedRadiance::Lanes{0, 0, 0, 1};  // the environment is dark, and is seen
+    set_environment(Spectrum(0.0f), Spectrum(0.0f));
 }
 
-void Exchange::set_radiance(const std::vector<Spectrum>& radiance, double most_fragments) {
-    float largest = 0.0f;
-    for (const Spectrum& r : radiance) largest = std::max(largest, max_channel(r));
+FixedRadiance Exchange::fixed(const Spectrum& radiance) const {
+    const auto steps = [&](float x) {
+        return std::llrint(std::clamp(x / unit_, -most_steps_, most_steps_));
+    };
+    return {FixedRadiance::Lanes{steps(radiance.x), steps(radiance.y), steps(radiance.z), 1}};
+}
+
+void Exchange::set_radiance(const std::vector<Spectrum>& radiance, float largest,
+                            double most_fragments) {
     // largest < 2^exponent; a sum of most_fragments of them stays below 2^62.
     int exponent = 0;
     std::frexp(largest, &exponent);
     const int bits = std::min(40, 62 - static_cast<int>(std::ceil(std::log2(most_fragments))));
     unit_ = largest > 0.0f ? std::ldexp(1.0, exponent - bits) : 1.0;
-    const double scale = 1.0 / unit_;
+    most_steps_ = std::ldexp(1.0, bits);
     workers_.for_ranges(radiance.size(), 16384, [&](std::size_t begin, std::size_t end, int) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const auto fixed = [&](float x) { return std::llrint(x * scale); };
-            radiance_[slot_of(static_cast<std::uint32_t>(i))].lane = FixedRadiance::Lanes{
-                fixed(radiance[i].x), fixed(radiance[i].y), fixed(radiance[i].z), 1};
-        }
+        for (std::size_t i = begin; i < end; ++i)
+            set_radiance(static_cast<std::uint32_t>(i), radiance[i]);
     });
+}
+
+void Exchange::set_radiance(std::uint32_t patch, const Spectrum& radiance) {
+    radiance_[slot_of(patch)] = fixed(radiance);
+}
+
+void Exchange::set_environment(const Spectrum& along, const Spectrum& against) {
+    along_ = fixed(along);
+    against_ = fixed(against);
+}
+
+Received Exchange::take_entered() {
+    FixedRadiance sum;
+    for (Partial& p : partials_) {
+        sum += p.entered;
+        p.entered = {};
+    }
+    return in_units(sum, unit_);
 }
 
 // Integers: both versions give the same bits.
@@ -86,7 +106,8 @@ void Exchange::exchange_tile(const TileLists& tile, int cluster_row, Partial& pa
     const std::uint8_t* const cluster = cluster_.data();
     FixedRadiance* const transfer = partial.transfer.data();
     const std::uint32_t n = cluster_count_ + 1;
-    FixedRadiance escaped;
+    FixedRadiance escaped, entered;
+    const FixedRadiance along = along_, against = against_;
     // Lists lie one behind the other: the leaves of those to come are fetched ahead.
     const Fragment* const last = tile.fragments.data() + tile.fragments.size() - 1;
     const auto fetch_ahead = [&](const Fragment* f) {
@@ -101,31 +122,35 @@ void Exchange::exchange_tile(const TileLists& tile, int cluster_row, Partial& pa
             const Fragment* f = tile.fragments.data() + tile.first[i];
             const Fragment* const end = tile.fragments.data() + tile.first[i + 1];
             if (f == end) continue;
-            const auto tell_clusters = [&](std::uint32_t a, std::uint32_t b) {
-                transfer[cluster[a] * n + cluster[b]] += shifted(radiance[b]);
-                transfer[cluster[b] * n + cluster[a]] += shifted(radiance[a]);
+            const auto tell_clusters = [&](std::uint32_t a, const FixedRadiance& by_a,
+                                           std::uint32_t b, const FixedRadiance& by_b) {
+                transfer[cluster[a] * n + cluster[b]] += shifted(by_b);
+                transfer[cluster[b] * n + cluster[a]] += shifted(by_a);
             };
             // The first and the last of a list face the environment.
             fetch_ahead(f);
             const std::uint32_t first = lower_slot(*f);
-            received[first] += radiance[outside];
+            received[first] += along;
+            entered += along;
             escaped += radiance[first];
-            if (sampled) tell_clusters(outside, first);
+            if (sampled) tell_clusters(outside, along, first, radiance[first]);
             std::uint32_t behind = upper_slot(*f);
             for (++f; f != end; ++f) {
                 fetch_ahead(f);
                 const std::uint32_t ahead = lower_slot(*f);
                 received[ahead] += radiance[behind];
                 received[behind] += radiance[ahead];
-                if (sampled) tell_clusters(ahead, behind);
+                if (sampled) tell_clusters(ahead, radiance[ahead], behind, radiance[behind]);
                 behind = upper_slot(*f);
             }
-            received[behind] += radiance[outside];
+            received[behind] += against;
+            entered += against;
             escaped += radiance[behind];
-            if (sampled) tell_clusters(behind, outside);
+            if (sampled) tell_clusters(behind, radiance[behind], outside, against);
         }
     }
     received[outside] += escaped;
+    partial.entered += entered;
     partial.fragments += tile.fragments.size();
 }
 
@@ -145,7 +170,7 @@ std::uint64_t Exchange::fragments() const {
 void Exchange::collect(ClusterTransfer& sum) {
     const std::uint32_t n = cluster_count_ + 1;
     for (std::uint32_t receiver = 0; receiver < n; ++receiver)
-        for (std::uint32_t sender = 0; sender < cluster_count_; ++sender) {
+        for (std::uint32_t sender = 0; sender < n; ++sender) {
             FixedRadiance total;
             for (Partial& p : partials_) {
                 FixedRadiance& entry = p.transfer[receiver * n + sender];

@@ -34,10 +34,10 @@ struct Received {
 };
 
 /// What clusters send each other, in units of radiance times fragments. Senders and receivers are
-/// numbered as in Clusters; receiver `count` is everything outside the scene.
+/// numbered as in Clusters; number `count` is everything outside the scene.
 struct ClusterTransfer {
     explicit ClusterTransfer(std::uint32_t cluster_count)
-        : count(cluster_count), entries(std::size_t{cluster_count + 1} * cluster_count) {}
+        : count(cluster_count), entries(std::size_t{cluster_count + 1} * (cluster_count + 1)) {}
     ClusterTransfer& operator+=(const ClusterTransfer& other) {
         for (std::size_t i = 0; i < entries.size(); ++i) {
             entries[i].radiance += other.entries[i].radiance;
@@ -48,10 +48,10 @@ struct ClusterTransfer {
     std::uint32_t count;
     std::vector<Received> entries;
     [[nodiscard]] Received& at(std::uint32_t receiver, std::uint32_t sender) {
-        return entries[std::size_t{receiver} * count + sender];
+        return entries[std::size_t{receiver} * (count + 1) + sender];
     }
     [[nodiscard]] const Received& at(std::uint32_t receiver, std::uint32_t sender) const {
-        return entries[std::size_t{receiver} * count + sender];
+        return entries[std::size_t{receiver} * (count + 1) + sender];
     }
 };
 
@@ -59,15 +59,20 @@ class Exchange {
 public:
     Exchange(std::uint32_t leaf_count, const Clusters& clusters, const Workers& workers);
 
-    /// Radiance that every patch sends from now on. \param most_fragments that a patch may receive
-    /// until the next `collect`.
-    void set_radiance(const std::vector<Spectrum>& radiance, double most_fragments);
+    /// Radiance that every patch sends from now on. \param largest that any patch may send until
+    /// the next call; \param most_fragments that a patch may receive until then.
+    void set_radiance(const std::vector<Spectrum>& radiance, float largest, double most_fragments);
+    /// The same for one patch, as for sides that send different radiance along each bundle. Above
+    /// the largest it is cut off. Different patches may be set at once.
+    void set_radiance(std::uint32_t patch, const Spectrum& radiance);
+    /// What comes from outside: along the direction, and against it.
+    void set_environment(const Spectrum& along, const Spectrum& against);
 
     /// Transfers the radiance of all patches along one bundle, both ways.
     void transfer(TransilluminationBuffer& buffer, const Bundle& bundle);
 
-    /// Takes out what arrived at a patch since it was last taken; patch 2 * leaf_count is the
-    /// environment. Different patches may be taken at once.
+    /// Takes out what arrived at a patch since it was last taken; patch 2 * leaf_count is
+    /// everything outside. Different patches may be taken at once.
     [[nodiscard]] Received take(std::uint32_t patch) {
         const std::uint32_t slot = slot_of(patch);
         FixedRadiance sum;
@@ -77,8 +82,9 @@ public:
         }
         return in_units(sum, unit_);
     }
-    /// Adds what clusters sent each other since the last call, and what left the scene is receiver
-    /// `count`.
+    /// Takes out what came in from outside since it was last taken.
+    [[nodiscard]] Received take_entered();
+    /// Adds what clusters sent each other since the last call.
     void collect(ClusterTransfer& sum);
 
     /// Exchanged so far.
@@ -88,6 +94,7 @@ private:
     struct Partial {
         std::vector<FixedRadiance> received;
         std::vector<FixedRadiance> transfer;
+        FixedRadiance entered;
         std::uint64_t fragments = 0;
     };
     void exchange_tile(const TileLists& tile, int cluster_row, Partial& partial) const;
@@ -101,11 +108,15 @@ private:
                 static_cast<double>(sum.lane[3])};
     }
 
+    [[nodiscard]] FixedRadiance fixed(const Spectrum& radiance) const;
+
     std::uint32_t leaf_count_, cluster_count_;
     const Workers& workers_;
-    double unit_ = 1.0;                    ///< radiance of one fixed-point step
-    std::vector<FixedRadiance> radiance_;  ///< one a slot, then the environment
-    std::vector<std::uint8_t> cluster_;    ///< one a slot, then the environment
+    double unit_ = 1.0;  ///< radiance of one fixed-point step
+    double most_steps_ = 0.0;
+    std::vector<FixedRadiance> radiance_;  ///< one a slot
+    FixedRadiance along_, against_;        ///< of the environment
+    std::vector<std::uint8_t> cluster_;    ///< one a slot, then what is outside
     std::vector<Partial> partials_;        ///< one a worker
 };
 

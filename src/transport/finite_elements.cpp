@@ -26,19 +26,27 @@ void add(PatchSums& s, const Received& block, double weight) {
 
 }  // namespace
 
-FiniteElementComponent::FiniteElementComponent(const PatchSources& sources, const Workers& workers)
+FiniteElementComponent::FiniteElementComponent(const SurfaceMesh& mesh,
+                                               const PatchHierarchy& patches,
+                                               const PatchSources& sources, const Workers& workers)
     : sources_(sources),
       workers_(workers),
+      glossy_(mesh, patches, sources, workers),
       sums_(sources.albedo.size()),
+      incoming_(sources.albedo.size()),
       radiance_(sources.albedo.size()) {}
 
 void FiniteElementComponent::average_in(Exchange& exchange, std::uint64_t directions,
                                         double weight) {
     workers_.for_ranges(sums_.size(), grain, [&](std::size_t begin, std::size_t end, int) {
-        for (std::size_t patch = begin; patch < end; ++patch)
-            add(sums_[patch], exchange.take(static_cast<std::uint32_t>(patch)), weight);
+        for (std::size_t i = begin; i < end; ++i) {
+            const auto patch = static_cast<std::uint32_t>(i);
+            add(sums_[i], glossy_.side_of(patch) ? glossy_.take(patch) : exchange.take(patch),
+                weight);
+        }
     });
     escaped_ += weight * exchange.take(patch_count()).radiance;
+    entered_ += weight * exchange.take_entered().radiance;
     weights_ += weight * static_cast<double>(directions);
     ++blocks_;
 }
@@ -54,7 +62,8 @@ void FiniteElementComponent::restart() {
         start.received = s.received / s.coverage * prior_weight;
         s = start;
     }
-    escaped_ = SpectrumSum(0.0);
+    glossy_.restart(prior_weight);
+    escaped_ = entered_ = SpectrumSum(0.0);
     weights_ = 0.0;
     blocks_ = 0;
 }
@@ -70,12 +79,14 @@ void FiniteElementComponent::recall() {
         s.coverage_squared += e.coverage_squared;
     }
     blocks_ = earlier_blocks_ > 0 ? blocks_ + earlier_blocks_ : 0;
+    glossy_.recall();
     forget();
 }
 
 void FiniteElementComponent::forget() {
     earlier_.clear();
     earlier_.shrink_to_fit();
+    glossy_.forget();
 }
 
 SpectrumSum FiniteElementComponent::incoming(std::uint32_t patch) const {
@@ -88,11 +99,13 @@ void FiniteElementComponent::scale_incoming(std::uint32_t patch, const SpectrumS
     s.received *= factor;
     s.received_squared *= factor * factor;
     s.received_coverage *= factor;
+    if (glossy_.side_of(patch)) glossy_.scale_incoming(patch, factor);
 }
 
 void FiniteElementComponent::set_incoming(std::uint32_t patch, const SpectrumSum& incoming) {
     PatchSums& s = sums_[patch];
     s.received = incoming * s.coverage;
+    if (glossy_.side_of(patch)) glossy_.set_incoming(patch, incoming);
 }
 
 SpectrumSum FiniteElementComponent::incoming_variance(std::uint32_t patch) const {
@@ -107,15 +120,38 @@ SpectrumSum FiniteElementComponent::incoming_variance(std::uint32_t patch) const
            (blocks_ / (blocks_ - 1.0));
 }
 
-const std::vector<Spectrum>& FiniteElementComponent::update_radiance() {
+SpectrumSum FiniteElementComponent::reflected(std::uint32_t patch) const {
+    return glossy_.side_of(patch) ? glossy_.reflected(patch)
+                                  : SpectrumSum(sources_.albedo[patch]) * incoming(patch);
+}
+
+SpectrumSum FiniteElementComponent::mean_albedo(std::uint32_t patch) const {
+    return SpectrumSum(glossy_.side_of(patch) ? glossy_.mean_albedo(patch)
+                                              : sources_.albedo[patch]);
+}
+
+void FiniteElementComponent::send(Exchange& exchange, float brightest_environment,
+                                  double most_fragments) {
     workers_.for_ranges(sums_.size(), grain, [&](std::size_t begin, std::size_t end, int) {
         for (std::size_t i = begin; i < end; ++i) {
-            const SpectrumSum reflected =
-                SpectrumSum(sources_.albedo[i]) * incoming(static_cast<std::uint32_t>(i));
-            radiance_[i] = sources_.emission[i] + sources_.direct[i] + Spectrum(reflected);
+            const SpectrumSum in = incoming(static_cast<std::uint32_t>(i));
+            incoming_[i] = Spectrum(in);
+            radiance_[i] = sources_.emission[i] + sources_.direct[i] +
+                           Spectrum(SpectrumSum(sources_.albedo[i]) * in);
         }
     });
-    return radiance_;
+    float largest = std::max(brightest_environment, glossy_.update_radiance(incoming_));
+    for (const Spectrum& r : radiance_) largest = std::max(largest, max_channel(r));
+    exchange.set_radiance(radiance_, largest, most_fragments);
+}
+
+void FiniteElementComponent::send_along(Exchange& exchange, const Bundle& bundle) const {
+    glossy_.send(exchange, bundle);
+}
+
+void FiniteElementComponent::receive_along(Exchange& exchange, const Bundle& bundle,
+                                           double weight) {
+    glossy_.receive(exchange, bundle, weight);
 }
 
 }  // namespace transillum

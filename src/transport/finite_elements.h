@@ -6,6 +6,7 @@
 #pragma once
 
 #include "transport/exchange.h"
+#include "transport/glossy_elements.h"
 
 #include <transillum/transport/iterate.h>
 
@@ -29,7 +30,17 @@ struct PatchSums {
 
 class FiniteElementComponent {
 public:
-    FiniteElementComponent(const PatchSources& sources, const Workers& workers);
+    /// Keeps references.
+    FiniteElementComponent(const SurfaceMesh& mesh, const PatchHierarchy& patches,
+                           const PatchSources& sources, const Workers& workers);
+
+    /// Refreshes what is sent: emission, first reflection, and what the elements reflect.
+    /// \param brightest_environment bound of its radiance
+    void send(Exchange& exchange, float brightest_environment, double most_fragments);
+    /// The part of it that differs from bundle to bundle.
+    void send_along(Exchange& exchange, const Bundle& bundle) const;
+    /// Takes what arrives at sides whose BRDF weighs bundles unlike. \param weight of the direction
+    void receive_along(Exchange& exchange, const Bundle& bundle, double weight);
 
     /// Takes a block of directions. \param weight of each of its directions in the average.
     void average_in(Exchange& exchange, std::uint64_t directions, double weight);
@@ -52,12 +63,19 @@ public:
     /// blocks.
     [[nodiscard]] SpectrumSum incoming_variance(std::uint32_t patch) const;
 
-    /// Outgoing radiance of every patch: emission, first reflection, and albedo times what arrives.
-    [[nodiscard]] const std::vector<Spectrum>& update_radiance();
+    /// Mean radiance that a patch reflects of `incoming`, weighted with the cosine.
+    [[nodiscard]] SpectrumSum reflected(std::uint32_t patch) const;
+    /// Reflected share of uniform light.
+    [[nodiscard]] SpectrumSum mean_albedo(std::uint32_t patch) const;
+    [[nodiscard]] std::vector<Spectrum> glossy_values() const { return glossy_.values(); }
 
     /// Radiance times fragments that left the scene, mean over the directions.
     [[nodiscard]] SpectrumSum escaped() const {
         return weights_ > 0.0 ? escaped_ / weights_ : SpectrumSum(0.0);
+    }
+    /// The same of what came in from the environment.
+    [[nodiscard]] SpectrumSum entered() const {
+        return weights_ > 0.0 ? entered_ / weights_ : SpectrumSum(0.0);
     }
     [[nodiscard]] double fragments(std::uint32_t patch) const { return sums_[patch].fragments; }
     [[nodiscard]] std::uint32_t patch_count() const {
@@ -68,9 +86,10 @@ public:
 private:
     const PatchSources& sources_;
     const Workers& workers_;
+    GlossyElements glossy_;
     std::vector<PatchSums> sums_;
-    std::vector<Spectrum> radiance_;
-    SpectrumSum escaped_{0.0};
+    std::vector<Spectrum> incoming_, radiance_;  ///< when last sent
+    SpectrumSum escaped_{0.0}, entered_{0.0};
     double weights_ = 0.0;
     int blocks_ = 0;
     std::vector<PatchSums> earlier_;  ///< set aside by the last restart

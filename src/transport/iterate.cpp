@@ -52,7 +52,9 @@ public:
           transfer_(clusters_.count),
           earlier_transfer_(clusters_.count),
           exchange_(patches.leaf_count, clusters_, workers),
-          component_(sources, workers) {
+          component_(mesh, patches, sources, workers),
+          environment_(sources.environment),
+          is_glossy_(!sources.glossy.empty()) {
         for (std::uint32_t r = 0; r < mesh.triangles.size(); ++r) {
             leaf_area_.push_back(leaf_area(mesh, patches, r));
         }
@@ -62,12 +64,10 @@ public:
         while (done_ < options_.iterations && !stopped()) {
             begin_block();
             const std::uint64_t block = block_length(done_, options_.averaging);
-            exchange_.set_radiance(component_.update_radiance(), most_fragments(block));
+            component_.send(exchange_, brightest_environment(block), most_fragments(block));
             std::uint64_t in_block = 0;
             do {
-                exchange_.transfer(
-                    buffer_,
-                    sample_bundle(static_cast<std::uint32_t>(done_ + in_block), options_.seed));
+                transfer(bundle(in_block), weight_after(block));
                 ++in_block;
                 monitor_.progress(
                     {"transport", done_ + in_block, options_.iterations, relative_error_});
@@ -78,6 +78,34 @@ public:
     }
 
 private:
+    Bundle bundle(std::uint64_t in_block) const {
+        return sample_bundle(static_cast<std::uint32_t>(done_ + in_block), options_.seed);
+    }
+
+    void transfer(const Bundle& bundle, double weight) {
+        if (environment_.shines())
+            exchange_.set_environment(environment_.radiance(-bundle.frame[2]),
+                                      environment_.radiance(bundle.frame[2]));
+        if (is_glossy_) component_.send_along(exchange_, bundle);
+        exchange_.transfer(buffer_, bundle);
+        if (is_glossy_) component_.receive_along(exchange_, bundle, weight);
+    }
+
+    /// Weights in proportion to a direction's number: step 2/(m + 1). The paper's: 1/m.
+    double weight_after(std::uint64_t directions) const {
+        return options_.averaging == Averaging::balanced ? static_cast<double>(done_ + directions)
+                                                         : 1.0;
+    }
+
+    float brightest_environment(std::uint64_t block) const {
+        float brightest = 0.0f;
+        for (std::uint64_t i = 0; environment_.shines() && i < block; ++i)
+            for (const double way : {-1.0, 1.0})
+                brightest = std::max(brightest,
+                                     max_channel(environment_.radiance(way * bundle(i).frame[2])));
+        return brightest;
+    }
+
     /// A patch is a planar triangle: it covers a pixel at most once a direction.
     double most_fragments(std::uint64_t block) const {
         const double diagonal_pixels =
@@ -103,11 +131,9 @@ private:
     }
 
     void end_block(std::uint64_t directions) {
-        const bool balanced = options_.averaging == Averaging::balanced;
+        component_.average_in(exchange_, directions, weight_after(directions));
         done_ += directions;
-        // Weights in proportion to a direction's number: step 2/(m + 1). The paper's: 1/m.
-        component_.average_in(exchange_, directions, balanced ? static_cast<double>(done_) : 1.0);
-        if (balanced) exchange_.collect(transfer_);
+        if (options_.averaging == Averaging::balanced) exchange_.collect(transfer_);
         if (balances_at(done_)) balance();
         if (done_ >= 2 * last_restart) forget();
         if (done_ > last_restart) relative_error_ = estimate_error();
@@ -209,6 +235,8 @@ private:
         // A direction sees a patch of area A under A/2 on average.
         const double pixel_area = buffer_.pixel_size() * buffer_.pixel_size();
         result.escaped = component_.escaped() * (2.0 * std::numbers::pi * pixel_area);
+        result.entered = component_.entered() * (2.0 * std::numbers::pi * pixel_area);
+        result.glossy_elements = component_.glossy_values();
         return result;
     }
 
@@ -222,6 +250,8 @@ private:
     ClusterTransfer transfer_, earlier_transfer_;
     Exchange exchange_;
     FiniteElementComponent component_;
+    const Environment& environment_;
+    bool is_glossy_;
     std::vector<double> leaf_area_;  ///< one a root
     std::uint64_t done_ = 0;
     double relative_error_ = std::numeric_limits<double>::quiet_NaN();

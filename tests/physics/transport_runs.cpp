@@ -23,18 +23,18 @@ double TransportRun::radiance(std::uint32_t patch) const {
            sources.albedo[patch].x * result.irradiance[patch].x / std::numbers::pi;
 }
 
-TransportRun run_transport(const Scene& scene, const RunOptions& options) {
+TransportRun prepare_transport(const Scene& scene, const RunOptions& options) {
     Monitor silent;
     const SurfaceMesh surface = build_surface(scene, {}, silent);
     SubdivisionOptions subdivision;
     subdivision.leaf_target = options.leaves;
     subdivision.max_level = options.max_level;
-    return run_transport(surface, subdivide_uniformly(surface, subdivision), options);
+    TransportRun run = prepare_transport(surface, subdivide_uniformly(surface, subdivision));
+    run.sources.environment = scene.lighting.environment;
+    return run;
 }
 
-TransportRun run_transport(const SurfaceMesh& surface, const PatchHierarchy& patches,
-                           const RunOptions& options) {
-    Monitor silent;
+TransportRun prepare_transport(const SurfaceMesh& surface, const PatchHierarchy& patches) {
     TransportRun run{surface, patches, {}, {}};
     for (std::uint32_t p = 0; p < run.patches.patch_count(); ++p) {
         const std::uint32_t root = run.patches.root_of_leaf[run.patches.leaf_of_patch(p)];
@@ -42,8 +42,14 @@ TransportRun run_transport(const SurfaceMesh& surface, const PatchHierarchy& pat
         const bool back = run.patches.is_back(p);
         run.sources.emission.push_back(!back || m.back_emits ? m.emission : Spectrum(0.0f));
         run.sources.direct.emplace_back(0.0f);
-        run.sources.albedo.push_back(!back || m.back_reflects ? m.albedo() : Spectrum(0.0f));
+        run.sources.albedo.push_back(!back || m.back_reflects ? m.diffuse : Spectrum(0.0f));
     }
+    run.sources.glossy = lay_out_glossy_sides(surface, patches, choose_bin_levels(surface, {}));
+    return run;
+}
+
+void iterate_in(TransportRun& run, const RunOptions& options) {
+    Monitor silent;
     IterationOptions iteration;
     iteration.iterations = options.directions;
     iteration.pixel_size = pixel_size_for(run.surface, options.resolution);
@@ -51,6 +57,18 @@ TransportRun run_transport(const SurfaceMesh& surface, const PatchHierarchy& pat
     iteration.averaging = options.averaging;
     run.result =
         iterate(run.surface, run.patches, run.sources, iteration, Workers(options.threads), silent);
+}
+
+TransportRun run_transport(const Scene& scene, const RunOptions& options) {
+    TransportRun run = prepare_transport(scene, options);
+    iterate_in(run, options);
+    return run;
+}
+
+TransportRun run_transport(const SurfaceMesh& surface, const PatchHierarchy& patches,
+                           const RunOptions& options) {
+    TransportRun run = prepare_transport(surface, patches);
+    iterate_in(run, options);
     return run;
 }
 

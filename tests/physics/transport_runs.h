@@ -35,8 +35,14 @@ struct TransportRun {
     [[nodiscard]] double radiance(std::uint32_t patch) const;
 };
 
-[[nodiscard]] TransportRun run_transport(const Scene& scene, const RunOptions& options);
+/// All but the iteration.
+[[nodiscard]] TransportRun prepare_transport(const Scene& scene, const RunOptions& options);
 /// With elements of one's own; `options` says nothing of leaves then.
+[[nodiscard]] TransportRun prepare_transport(const SurfaceMesh& surface,
+                                             const PatchHierarchy& patches);
+void iterate_in(TransportRun& run, const RunOptions& options);
+
+[[nodiscard]] TransportRun run_transport(const Scene& scene, const RunOptions& options);
 [[nodiscard]] TransportRun run_transport(const SurfaceMesh& surface, const PatchHierarchy& patches,
                                          const RunOptions& options);
 

@@ -69,6 +69,10 @@ struct PatchHierarchy {
 [[nodiscard]] double leaf_area(const SurfaceMesh& mesh, const PatchHierarchy& patches,
                                std::uint32_t root);
 
+/// Centre of gravity of a leaf.
+[[nodiscard]] glm::dvec3 leaf_centre(const SurfaceMesh& mesh, const PatchHierarchy& patches,
+                                     std::uint32_t leaf);
+
 struct SubdivisionOptions {
     double patch_size = 0.0;  ///< longest edge a leaf may have [scene units]; 0: from leaf_target
     std::uint32_t leaf_target = 0;  ///< the size is chosen so that there are about this many

@@ -17,6 +17,7 @@ struct BakeOptions {
     SurfaceOptions surface;
     SubdivisionOptions subdivision;
     LightSampleOptions light;
+    BinOptions bins;
     IterationOptions iteration;  ///< its pixel size and seed are set from the fields below
     int hemicube_resolution = 512;
     int resolution = 0;  ///< pixels across the transillumination buffer; 0: three a leaf's edge

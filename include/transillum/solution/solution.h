@@ -5,6 +5,7 @@
 #include <transillum/first_shot/direct_light.h>
 #include <transillum/geometry/patch_hierarchy.h>
 #include <transillum/geometry/surface_mesh.h>
+#include <transillum/transport/glossy_sides.h>
 
 #include <cstdint>
 #include <string>
@@ -22,6 +23,7 @@ struct Decision {
 /// Total flux [W] (radiance unit * sr * square scene units) by where it went.
 struct EnergyBalance {
     SpectrumSum emitted{0.0};   ///< by all emitters
+    SpectrumSum entered{0.0};   ///< from the environment
     SpectrumSum absorbed{0.0};  ///< by patches
     SpectrumSum escaped{0.0};   ///< out of the scene (estimate of the iteration and the first shot)
     SpectrumSum black_backs{
@@ -32,6 +34,7 @@ struct Solution {
     SurfaceMesh surface;
     PatchHierarchy patches;
     DirectLight direct;
+    GlossySides glossy;
     std::vector<Camera> cameras;
 
     // One a patch (PatchHierarchy: fronts, then backs). Sides that neither reflect nor emit hold
@@ -40,6 +43,7 @@ struct Solution {
     std::vector<Spectrum> indirect_irradiance;  ///< by the iteration [W m^-2]
     std::vector<Spectrum> standard_error;       ///< of the finite-element radiance [W sr^-1 m^-2]
     std::vector<float> coverage;                ///< fragments seen, summed over directions
+    std::vector<Spectrum> glossy_elements;      ///< as glossy_sides.h lays them out
 
     std::uint64_t iterations = 0;  ///< directions transferred, each both ways
     std::uint64_t seed = 0;
@@ -68,7 +72,14 @@ struct Solution {
     [[nodiscard]] Spectrum emission(std::uint32_t patch) const {
         return emits(patch) ? material_of(patch).emission : Spectrum(0.0f);
     }
-    /// Lambert: radiance = albedo * irradiance / pi.
+    /// Albedo of the Lambert part [1]; 0 for a black back.
+    [[nodiscard]] Spectrum diffuse(std::uint32_t patch) const {
+        return reflects(patch) ? material_of(patch).diffuse : Spectrum(0.0f);
+    }
+    /// Null for a patch without a lobe.
+    [[nodiscard]] const GlossySide* glossy_side(std::uint32_t patch) const;
+    /// Reflected radiance [W sr^-1 m^-2], cosine-weighted mean over outgoing directions: of the
+    /// first shot, and of the finite elements.
     [[nodiscard]] Spectrum direct_radiance(std::uint32_t patch) const;
     [[nodiscard]] Spectrum finite_element_radiance(std::uint32_t patch) const;
 };

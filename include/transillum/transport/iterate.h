@@ -6,6 +6,8 @@
 #include <transillum/base/spectrum.h>
 #include <transillum/geometry/patch_hierarchy.h>
 #include <transillum/geometry/surface_mesh.h>
+#include <transillum/scene/environment.h>
+#include <transillum/transport/glossy_sides.h>
 
 #include <cstdint>
 #include <vector>
@@ -27,11 +29,29 @@ struct IterationOptions {
     Averaging averaging = Averaging::balanced;
 };
 
+/// Light of the first shot that arrives at a patch from about one direction.
+struct IncomingLight {
+    glm::vec3 direction{0.0f, 0.0f, 1.0f};  ///< unit, towards the light, in the side's bin_frame
+    Spectrum irradiance{0.0f};              ///< [W m^-2]
+};
+
 /// What every patch contributes on its own: one entry a patch of the hierarchy.
 struct PatchSources {
     std::vector<Spectrum> emission;  ///< emitted radiance that travels by iteration [W sr^-1 m^-2]
-    std::vector<Spectrum> direct;    ///< radiance reflected from the first shot [W sr^-1 m^-2]
-    std::vector<Spectrum> albedo;    ///< Lambert albedo; 0 for a black back
+    /// Radiance reflected from the first shot [W sr^-1 m^-2]; its cosine-weighted mean on glossy
+    /// sides.
+    std::vector<Spectrum> direct;
+    std::vector<Spectrum> albedo;  ///< of the Lambert part; 0 for a black back
+    GlossySides glossy;            ///< may be empty, of_root_side with it
+    /// Of glossy sides' patches, instead of `direct`: entries [first_incoming[p],
+    /// first_incoming[p + 1]), so that the lobe reflects them towards each new direction (paper
+    /// §4). Both empty without a first shot on glossy sides.
+    std::vector<std::uint32_t> first_incoming;
+    std::vector<IncomingLight> incoming;
+    /// Added to what a glossy side's lobe sends into its bins, one an element: directional emission
+    /// [W sr^-1 m^-2]. Empty for none; row 0 is not used.
+    std::vector<Spectrum> element_emission;
+    Environment environment;
 };
 
 struct TransportResult {
@@ -41,12 +61,14 @@ struct TransportResult {
     /// blocks of a low-discrepancy sequence make up for each other. As large as the irradiance
     /// where there were too few blocks to tell.
     std::vector<Spectrum> standard_error;
-    std::vector<float> coverage;  ///< fragments seen, over all directions
+    std::vector<float> coverage;            ///< fragments seen, over all directions
+    std::vector<Spectrum> glossy_elements;  ///< as glossy_sides.h lays them out
     std::uint64_t iterations = 0;
     double relative_error = 0.0;  ///< root of the area-weighted mean of squared errors over the
                                   ///< mean irradiance; 1 where unknown
     bool interrupted = false;
     SpectrumSum escaped{0.0};     ///< flux that left the scene [radiance * sr * square scene units]
+    SpectrumSum entered{0.0};     ///< flux that came in from the environment, likewise
     std::uint64_t fragments = 0;  ///< exchanged, over all directions
 };
 

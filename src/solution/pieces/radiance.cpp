@@ -31,10 +31,53 @@ void add_provenance(const Solution& solution, const Patches& stored, vtkFieldDat
               [&](std::size_t i) { return triangle(i).material; });
 }
 
-/// A patch has one direction bin, so the table of further bins is empty.
-void add_bins(std::size_t count, vtkFieldData& cells) {
-    add_array(cells, "BinOffset", count, [](std::size_t) { return std::uint32_t{0}; });
-    add_array(cells, "BinCount", count, [](std::size_t) { return std::uint32_t{1}; });
+/// Direction bins: of cell i, tuples [BinOffset, BinOffset + BinCount) of the field array
+/// DirectionBins hold the lobe's radiance, row-major over the square of direction_bins.h; none for
+/// a patch without a lobe. DiffuseIncoming is what its Lambert part sees (row 0 of its elements).
+void add_bins(const Solution& solution, const Patches& stored, vtkPolyData& piece) {
+    vtkCellData& cells = *piece.GetCellData();
+    std::vector<std::uint64_t> offsets{0};
+    for (const std::uint32_t p : stored) {
+        const GlossySide* const side = solution.glossy_side(p);
+        offsets.push_back(offsets.back() + (side ? bin_count(side->bin_level) : 0));
+    }
+    add_array(cells, "BinOffset", stored.size(), [&](std::size_t i) { return offsets[i]; });
+    add_array(cells, "BinCount", stored.size(), [&](std::size_t i) {
+        return static_cast<std::uint32_t>(offsets[i + 1] - offsets[i]);
+    });
+    if (solution.glossy.empty()) return;
+    add_array(cells, "DiffuseIncoming", stored.size(), [&](std::size_t i) {
+        const GlossySide* const side = solution.glossy_side(stored[i]);
+        return side ? solution.glossy_elements[side->element(0, stored[i])] : Spectrum(0.0f);
+    });
+    std::vector<Spectrum> bins(offsets.back());
+    for (std::size_t i = 0; i < stored.size(); ++i)
+        for (std::uint64_t j = offsets[i]; j < offsets[i + 1]; ++j)
+            bins[j] = solution.glossy_elements[solution.glossy_side(stored[i])->element(
+                1 + static_cast<int>(j - offsets[i]), stored[i])];
+    add_array(*piece.GetFieldData(), "DirectionBins", bins.size(),
+              [&](std::size_t j) { return bins[j]; });
+}
+
+/// \pre the solution's glossy sides are laid out.
+void read_bins(vtkPolyData& piece, const Path& file, const Patches& stored, Solution& solution) {
+    solution.glossy_elements.assign(solution.glossy.element_count, Spectrum(0.0f));
+    if (solution.glossy.empty()) return;
+    const ArrayReader cells{*piece.GetCellData(), file}, fields{*piece.GetFieldData(), file};
+    const auto incoming = cells.read<Spectrum>("DiffuseIncoming", stored.size());
+    std::size_t count = 0;
+    for (const std::uint32_t p : stored)
+        if (const GlossySide* const side = solution.glossy_side(p))
+            count += static_cast<std::size_t>(bin_count(side->bin_level));
+    const auto bins = fields.read<Spectrum>("DirectionBins", count);
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < stored.size(); ++i) {
+        const GlossySide* const side = solution.glossy_side(stored[i]);
+        if (!side) continue;
+        solution.glossy_elements[side->element(0, stored[i])] = incoming[i];
+        for (int row = 1; row < side->row_count(); ++row)
+            solution.glossy_elements[side->element(row, stored[i])] = bins[next++];
+    }
 }
 
 template <class Value>
@@ -66,7 +109,7 @@ PolyData radiance_piece(const Solution& solution, const Patches& stored) {
     add("StandardError", [&](std::uint32_t p) { return solution.standard_error[p]; });
     add("Coverage", [&](std::uint32_t p) { return solution.coverage[p]; });
     add_provenance(solution, stored, cells);
-    add_bins(stored.size(), cells);
+    add_bins(solution, stored, *piece);
     cells.SetActiveScalars("Radiance");
     return piece;
 }
@@ -82,6 +125,7 @@ void read_radiance_piece(vtkPolyData& piece, const Path& file, Solution& solutio
     read("IndirectIrradiance", solution.indirect_irradiance);
     read("StandardError", solution.standard_error);
     read("Coverage", solution.coverage);
+    read_bins(piece, file, stored, solution);
 }
 
 }  // namespace transillum

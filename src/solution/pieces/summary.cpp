@@ -45,6 +45,7 @@ void add_summary(const Solution& solution, vtkFieldData& fields) {
     add_value(fields, "RelativeError", solution.relative_error);
     add_value(fields, "Interrupted", std::uint8_t{solution.interrupted});
     add_value(fields, "EnergyEmitted", solution.balance.emitted);
+    add_value(fields, "EnergyEntered", solution.balance.entered);
     add_value(fields, "EnergyAbsorbed", solution.balance.absorbed);
     add_value(fields, "EnergyEscaped", solution.balance.escaped);
     add_value(fields, "EnergyBlackBacks", solution.balance.black_backs);
@@ -68,6 +69,7 @@ void read_summary(vtkFieldData& fields, const Path& file, Solution& solution) {
     solution.relative_error = reader.read_value<double>("RelativeError");
     solution.interrupted = reader.read_flags("Interrupted", 1)[0] != 0;
     solution.balance.emitted = reader.read_value<SpectrumSum>("EnergyEmitted");
+    solution.balance.entered = reader.read_value<SpectrumSum>("EnergyEntered");
     solution.balance.absorbed = reader.read_value<SpectrumSum>("EnergyAbsorbed");
     solution.balance.escaped = reader.read_value<SpectrumSum>("EnergyEscaped");
     solution.balance.black_backs = reader.read_value<SpectrumSum>("EnergyBlackBacks");

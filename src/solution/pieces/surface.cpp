@@ -120,6 +120,37 @@ void read_shot_sides(const ArrayReader& reader, std::size_t roots,
     }
 }
 
+/// Bin level of either side; -1 without a lobe.
+void add_bin_levels(const Solution& solution, vtkFieldData& cells) {
+    if (solution.glossy.empty()) return;
+    for (const bool back : {false, true})
+        add_array(cells, back ? "BinLevelBack" : "BinLevelFront", solution.surface.triangles.size(),
+                  [&](std::size_t i) {
+                      const GlossySide* const side =
+                          solution.glossy.find(static_cast<std::uint32_t>(i), back);
+                      return side ? side->bin_level : -1;
+                  });
+}
+
+void read_bin_levels(const ArrayReader& reader, const Path& file, Solution& solution) {
+    const std::size_t roots = solution.surface.triangles.size();
+    std::vector<std::int8_t> levels(2 * roots, -1);
+    if (reader.has("BinLevelFront"))
+        for (const std::size_t back : {0u, 1u}) {
+            const char* const name = back ? "BinLevelBack" : "BinLevelFront";
+            const auto of_roots = reader.read<std::int32_t>(name, roots);
+            for (std::size_t i = 0; i < roots; ++i) {
+                if (of_roots[i] < -1 || of_roots[i] > max_bin_level)
+                    throw InputError(file.string(), std::string("array '") + name + "': " +
+                                                        std::to_string(of_roots[i]) +
+                                                        " is outside [-1, " +
+                                                        std::to_string(max_bin_level) + "]");
+                levels[2 * i + back] = static_cast<std::int8_t>(of_roots[i]);
+            }
+        }
+    solution.glossy = lay_out_glossy_sides(solution.surface, solution.patches, levels);
+}
+
 PolyData triangles_of(const SurfaceMesh& mesh) {
     vtkNew<vtkPoints> points;
     points->SetDataTypeToDouble();
@@ -195,6 +226,7 @@ PolyData surface_piece(const Solution& solution) {
     cells.SetActiveNormals("Normals");
     add_uvs(mesh, cells);
     add_shot_sides(solution.direct.shot_sides, cells);
+    add_bin_levels(solution, cells);
 
     vtkFieldData& fields = *piece->GetFieldData();
     for_material_members(
@@ -226,6 +258,7 @@ void read_surface_piece(vtkPolyData& piece, const Path& file, Solution& solution
     for_camera_members([&](const char* name, auto member) {
         read_member(fields, name, solution.cameras, member);
     });
+    read_bin_levels(cells, file, solution);
     mesh.objects = fields.read_strings("ObjectName");
     mesh.fan_count = fields.read_value<std::uint32_t>("FanCount");
     mesh.grid.exponent = fields.read_value<std::int32_t>("GridExponent");

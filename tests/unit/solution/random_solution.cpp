@@ -110,7 +110,7 @@ void add_summary(Dice& dice, Solution& solution) {
     solution.seed = dice.bits();
     solution.relative_error = dice.number();
     solution.interrupted = dice.below(2) == 0;
-    solution.balance = {dice.point(), dice.point(), dice.point(), dice.point()};
+    solution.balance = {dice.point(), dice.point(), dice.point(), dice.point(), dice.point()};
     for (std::uint32_t i = dice.below(4); i > 0; --i) {
         solution.decisions.push_back({dice.text(), dice.text()});
         solution.settings.emplace_back(dice.text(), dice.text());
@@ -148,8 +148,8 @@ auto tie_of(const Decision& d) {
     return std::tie(what, why);
 }
 auto tie_of(const EnergyBalance& b) {
-    const auto& [emitted, absorbed, escaped, black_backs] = b;
-    return std::tie(emitted, absorbed, escaped, black_backs);
+    const auto& [emitted, entered, absorbed, escaped, black_backs] = b;
+    return std::tie(emitted, entered, absorbed, escaped, black_backs);
 }
 
 template <class T>

@@ -29,10 +29,10 @@ protected:
     double arriving_at_second(float albedo_1, float albedo_2, BalanceShape shape,
                               double escaping = 0.0) {
         sources_.albedo = {Spectrum(albedo_1), Spectrum(albedo_2), Spectrum(0.0f), Spectrum(0.0f)};
-        FiniteElementComponent component(sources_, workers_);
+        FiniteElementComponent component(mesh_, patches_, sources_, workers_);
         TransilluminationBuffer buffer(mesh_, patches_, 0.01);
         Exchange exchange(patches_.leaf_count, clusters_, workers_);
-        exchange.set_radiance(component.update_radiance(), 1e6);
+        component.send(exchange, 0.0f, 1e6);
         exchange.transfer(buffer, Bundle{});
         component.average_in(exchange, 1, 1.0);
         ClusterTransfer transfer(clusters_.count);

@@ -25,7 +25,8 @@ protected:
         const Workers workers(threads);
         TransilluminationBuffer buffer(mesh_, patches_, 0.005);
         Exchange exchange(patches_.leaf_count, {}, workers);
-        exchange.set_radiance(radiance_, 1e9);
+        exchange.set_radiance(radiance_, 2.0f + 0.01f * static_cast<float>(patches_.leaf_count),
+                              1e9);
         for (int i = 0; i < directions; ++i)
             exchange.transfer(buffer, sample_bundle(static_cast<std::uint32_t>(i), 7));
         std::vector<Received> all(patches_.patch_count() + 1);
