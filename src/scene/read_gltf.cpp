@@ -1,6 +1,7 @@
 #include "scene/read_gltf.h"
 
 #include "scene/gltf_document.h"
+#include "scene/gltf_lights.h"
 #include "scene/gltf_materials.h"
 #include "scene/gltf_nodes.h"
 #include "scene/soup.h"
@@ -50,9 +51,9 @@ private:
 };
 
 void GltfReader::check_extensions() {
-    constexpr std::array<std::string_view, 4> honoured{
-        "KHR_materials_emissive_strength", "KHR_materials_transmission", "KHR_mesh_quantization",
-        "KHR_texture_transform"};
+    constexpr std::array<std::string_view, 5> honoured{
+        "KHR_lights_punctual", "KHR_materials_emissive_strength", "KHR_materials_transmission",
+        "KHR_mesh_quantization", "KHR_texture_transform"};
     const auto is_honoured = [&](const Json& name) {
         return std::ranges::count(honoured, name.get<std::string>()) > 0;
     };
@@ -61,7 +62,7 @@ void GltfReader::check_extensions() {
             document_.fail(
                 "extensionsRequired",
                 in_quotes(name.get<std::string>()) +
-                    " found; accepted: KHR_materials_emissive_strength, "
+                    " found; accepted: KHR_lights_punctual, KHR_materials_emissive_strength, "
                     "KHR_materials_transmission, KHR_mesh_quantization, KHR_texture_transform");
     for (const Json& name : document_.root().value("extensionsUsed", Json::array()))
         if (!is_honoured(name)) left_out_.insert("extension " + name.get<std::string>());
@@ -209,6 +210,7 @@ void GltfReader::read_camera(const GltfNode& node, const Json& json) {
 void GltfReader::read_node(const GltfNode& node) {
     const Json& json = document_.root().at("nodes")[node.index];
     if (json.contains("camera")) read_camera(node, json);
+    read_gltf_light(document_, node, scene_.lighting.lights, monitor_);
     if (!json.contains("mesh")) return;
     const std::size_t index = document_.index_into("meshes", json.at("mesh"));
     const Json& mesh = document_.root().at("meshes")[index];

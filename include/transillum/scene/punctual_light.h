@@ -17,13 +17,17 @@ struct PunctualLight {
     Kind kind = Kind::point;
     glm::dvec3 position{0.0};              ///< point, spot
     glm::dvec3 direction{0.0, 0.0, -1.0};  ///< unit, the way light travels; spot: its axis
-    glm::dvec3 up{0.0, 1.0, 0.0};  ///< where C = 90 degrees of the photometry lies, across the axis
+    /// Where C = 90 degrees of the photometry lies, across the axis; -z where it is along the axis.
+    glm::dvec3 up{0.0, 1.0, 0.0};
     /// Point and spot: radiant intensity on the axis [W sr^-1]; with photometry: its scale.
     /// Directional: irradiance of a surface that faces it [W m^-2].
     Spectrum intensity{1.0f};
     double inner_angle = 0.0, outer_angle = 0.785398163397448;  ///< spot: half-angles [radians]
     std::shared_ptr<const Photometry> photometry;               ///< point: where the IES file says
 
+    /// How a point or spot spreads its intensity: intensity_towards / intensity. Point: 1; spot:
+    /// the falloff between its angles, 1 within the inner; with photometry: candela.
+    [[nodiscard]] double distribution(const glm::dvec3& direction) const;
     /// Radiant intensity [W sr^-1] of a point or spot towards a unit direction.
     [[nodiscard]] Spectrum intensity_towards(const glm::dvec3& direction) const;
 };
