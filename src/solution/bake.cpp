@@ -157,10 +157,9 @@ void decide_bins(const Solution& s, const BinOptions& options, std::vector<Decis
         patches += side.leaf_count;
         bins += std::uint64_t{side.leaf_count} * bin_count(side.bin_level);
     }
-    decisions.push_back({fmt::format("{} direction bins on {} glossy patches, one on all others",
-                                     bins, patches),
-                         options.level < 0 ? "by the width and weight of their lobes"
-                                           : "asked for"});
+    decisions.push_back(
+        {fmt::format("{} direction bins on {} glossy patches, one on all others", bins, patches),
+         options.level < 0 ? "by the width and weight of their lobes" : "asked for"});
 }
 
 void note_decisions(const Solution& s, Monitor& monitor) {
@@ -198,7 +197,8 @@ Solution bake(const Scene& scene, const BakeOptions& options, const Workers& wor
     require_light(scene, s.surface);
     s.patches = subdivide_uniformly(s.surface, options.subdivision);
     s.scene_hash = hash_scene(s.surface);
-    s.glossy = lay_out_glossy_sides(s.surface, s.patches, choose_bin_levels(s.surface, options.bins));
+    s.glossy =
+        lay_out_glossy_sides(s.surface, s.patches, choose_bin_levels(s.surface, options.bins));
     decide_bins(s, options.bins, s.decisions);
     watch.lap("geometry");
 

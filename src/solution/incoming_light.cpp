@@ -33,8 +33,8 @@ void append_incoming_light(const Solution& solution, std::uint32_t patch,
         const float factor = light.visibility[entry] * light.projected_solid_angle[entry];
         if (!(factor > 0.0f)) continue;
         const LightSample& sample = light.samples[i];
-        incoming.push_back({raised(local_from_world * (sample.position - centre)),
-                            sample.radiance * factor});
+        incoming.push_back(
+            {raised(local_from_world * (sample.position - centre)), sample.radiance * factor});
     }
 }
 

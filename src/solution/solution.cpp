@@ -39,11 +39,17 @@ Spectrum Solution::finite_element_radiance(std::uint32_t patch) const {
     const GlossySide* const side = glossy_side(patch);
     if (!side) return diffuse(patch) * indirect_irradiance[patch] * inv_pi;
     const Brdf brdf = brdf_of_patch(*this, *side, patch);
-    Spectrum lobe(0.0f);
-    for (int row = 1; row < side->row_count(); ++row)
-        lobe += glossy_elements[side->element(row, patch)];
-    return brdf.diffuse * mean_diffuse_coupling(brdf) * glossy_elements[side->element(0, patch)] +
-           lobe / static_cast<float>(bin_count(side->bin_level));
+    const ProjectedBrdf& projected = glossy.projections[side->projection];
+    Spectrum by_lobe(0.0f), by_lambert(0.0f);
+    float coupling = 0.0f;
+    for (int k = 0; k < side->bins(); ++k) {
+        const Spectrum& incoming = glossy_elements[side->element(k, patch)];
+        by_lobe += projected.lobe_albedo(k) * incoming;
+        by_lambert += projected.coupling(k) * incoming;
+        coupling += projected.coupling(k);
+    }
+    return by_lobe / static_cast<float>(side->bins()) +
+           brdf.diffuse * by_lambert * (mean_diffuse_coupling(brdf) / coupling);
 }
 
 }  // namespace transillum

@@ -27,7 +27,6 @@ struct ClusterState {
 std::vector<ClusterState> measure_clusters(const FiniteElementComponent& component,
                                            const Clusters& clusters) {
     std::vector<ClusterState> states(clusters.count);
-    const PatchSources& sources = component.sources();
     for (std::uint32_t p = 0; p < component.patch_count(); ++p) {
         const double c = component.coverage(p);
         if (c == 0.0) continue;
@@ -35,7 +34,7 @@ std::vector<ClusterState> measure_clusters(const FiniteElementComponent& compone
         s.coverage += c;
         s.incoming += c * component.incoming(p);
         s.reflected += c * component.reflected(p);
-        s.source += c * (SpectrumSum(sources.emission[p]) + SpectrumSum(sources.direct[p]));
+        s.source += c * component.source(p);
         s.albedo += c * component.mean_albedo(p);
     }
     return states;

@@ -33,7 +33,7 @@ FiniteElementComponent::FiniteElementComponent(const SurfaceMesh& mesh,
       workers_(workers),
       glossy_(mesh, patches, sources, workers),
       sums_(sources.albedo.size()),
-      incoming_(sources.albedo.size()),
+      ratio_(sources.albedo.size()),
       radiance_(sources.albedo.size()) {}
 
 void FiniteElementComponent::average_in(Exchange& exchange, std::uint64_t directions,
@@ -90,6 +90,10 @@ void FiniteElementComponent::forget() {
 }
 
 SpectrumSum FiniteElementComponent::incoming(std::uint32_t patch) const {
+    return glossy_.side_of(patch) ? glossy_.incoming(patch, Spectrum(ratio(patch))) : ratio(patch);
+}
+
+SpectrumSum FiniteElementComponent::ratio(std::uint32_t patch) const {
     const PatchSums& s = sums_[patch];
     return s.coverage > 0.0 ? s.received / s.coverage : SpectrumSum(0.0);
 }
@@ -113,7 +117,7 @@ SpectrumSum FiniteElementComponent::incoming_variance(std::uint32_t patch) const
     if (blocks_ < least_blocks_for_error || s.coverage == 0.0)
         return SpectrumSum(std::numeric_limits<double>::quiet_NaN());
     // Linearised variance of a ratio of sums: sum of (w C)^2 (x_b - x)^2 over (sum of w C)^2.
-    const SpectrumSum x = incoming(patch);
+    const SpectrumSum x = ratio(patch);
     const SpectrumSum spread =
         s.received_squared - 2.0 * x * s.received_coverage + x * x * s.coverage_squared;
     return glm::max(spread, SpectrumSum(0.0)) / (s.coverage * s.coverage) *
@@ -121,8 +125,14 @@ SpectrumSum FiniteElementComponent::incoming_variance(std::uint32_t patch) const
 }
 
 SpectrumSum FiniteElementComponent::reflected(std::uint32_t patch) const {
-    return glossy_.side_of(patch) ? glossy_.reflected(patch)
+    return glossy_.side_of(patch) ? glossy_.reflected(patch, Spectrum(ratio(patch)))
                                   : SpectrumSum(sources_.albedo[patch]) * incoming(patch);
+}
+
+SpectrumSum FiniteElementComponent::source(std::uint32_t patch) const {
+    const SpectrumSum own =
+        SpectrumSum(sources_.emission[patch]) + SpectrumSum(sources_.direct[patch]);
+    return glossy_.side_of(patch) ? own + SpectrumSum(glossy_.mean_emission(patch)) : own;
 }
 
 SpectrumSum FiniteElementComponent::mean_albedo(std::uint32_t patch) const {
@@ -130,18 +140,24 @@ SpectrumSum FiniteElementComponent::mean_albedo(std::uint32_t patch) const {
                                               : sources_.albedo[patch]);
 }
 
+std::vector<Spectrum> FiniteElementComponent::glossy_values() {
+    for (std::uint32_t p = 0; p < patch_count(); ++p) ratio_[p] = Spectrum(ratio(p));
+    return glossy_.values(ratio_);
+}
+
 void FiniteElementComponent::send(Exchange& exchange, float brightest_environment,
                                   double most_fragments) {
     workers_.for_ranges(sums_.size(), grain, [&](std::size_t begin, std::size_t end, int) {
         for (std::size_t i = begin; i < end; ++i) {
-            const SpectrumSum in = incoming(static_cast<std::uint32_t>(i));
-            incoming_[i] = Spectrum(in);
+            const SpectrumSum in = ratio(static_cast<std::uint32_t>(i));
+            ratio_[i] = Spectrum(in);
             radiance_[i] = sources_.emission[i] + sources_.direct[i] +
                            Spectrum(SpectrumSum(sources_.albedo[i]) * in);
         }
     });
-    float largest = std::max(brightest_environment, glossy_.update_radiance(incoming_));
+    float largest = brightest_environment;
     for (const Spectrum& r : radiance_) largest = std::max(largest, max_channel(r));
+    if (!glossy_.empty()) largest = std::max(largest, glossy_.update_incoming(ratio_));
     exchange.set_radiance(radiance_, largest, most_fragments);
 }
 

@@ -65,9 +65,12 @@ public:
 
     /// Mean radiance that a patch reflects of `incoming`, weighted with the cosine.
     [[nodiscard]] SpectrumSum reflected(std::uint32_t patch) const;
+    /// Mean radiance that a patch sends without the elements, weighted with the cosine.
+    [[nodiscard]] SpectrumSum source(std::uint32_t patch) const;
     /// Reflected share of uniform light.
     [[nodiscard]] SpectrumSum mean_albedo(std::uint32_t patch) const;
-    [[nodiscard]] std::vector<Spectrum> glossy_values() const { return glossy_.values(); }
+    /// Incoming radiance of glossy sides by bin, as glossy_sides.h lays it out.
+    [[nodiscard]] std::vector<Spectrum> glossy_values();
 
     /// Radiance times fragments that left the scene, mean over the directions.
     [[nodiscard]] SpectrumSum escaped() const {
@@ -81,14 +84,15 @@ public:
     [[nodiscard]] std::uint32_t patch_count() const {
         return static_cast<std::uint32_t>(sums_.size());
     }
-    [[nodiscard]] const PatchSources& sources() const { return sources_; }
 
 private:
+    [[nodiscard]] SpectrumSum ratio(std::uint32_t patch) const;
+
     const PatchSources& sources_;
     const Workers& workers_;
     GlossyElements glossy_;
     std::vector<PatchSums> sums_;
-    std::vector<Spectrum> incoming_, radiance_;  ///< when last sent
+    std::vector<Spectrum> ratio_, radiance_;  ///< when last sent
     SpectrumSum escaped_{0.0}, entered_{0.0};
     double weights_ = 0.0;
     int blocks_ = 0;

@@ -1,7 +1,8 @@
 #include "transport/glossy_elements.h"
 
 #include <algorithm>
-#include <map>
+#include <array>
+#include <numbers>
 #include <utility>
 
 namespace transillum {
@@ -25,15 +26,10 @@ GlossyElements::GlossyElements(const SurfaceMesh& mesh, const PatchHierarchy& pa
       patches_(patches),
       workers_(workers),
       sums_(sources.glossy.element_count),
-      radiance_(sources.glossy.element_count) {
-    std::map<std::pair<std::uint32_t, int>, std::uint32_t> known;
+      incoming_(sources.glossy.element_count) {
     std::uint32_t glossy_patches = 0;
     for (std::uint32_t i = 0; i < sides_.size(); ++i) {
         const GlossySide& s = sides_[i];
-        const auto [at, is_new] =
-            known.try_emplace({s.brdf, s.bin_level}, static_cast<std::uint32_t>(projected_.size()));
-        if (is_new) projected_.emplace_back(sources.glossy.brdfs[s.brdf], s.bin_level);
-        projected_of_side_.push_back(at->second);
         const glm::dvec3 normal = normal_of(mesh, s.root) * (s.back ? -1.0 : 1.0);
         local_from_world_.emplace_back(glm::transpose(bin_frame(normal)));
         for (std::uint32_t begin = 0; begin < s.leaf_count; begin += leaves_a_chunk)
@@ -44,7 +40,27 @@ GlossyElements::GlossyElements(const SurfaceMesh& mesh, const PatchHierarchy& pa
     block_.resize(glossy_patches);
     for (const GlossySide& s : sides_)
         for (std::uint32_t p = s.first_patch; p < s.first_patch + s.leaf_count; ++p)
-            largest_direct_ = std::max(largest_direct_, direct_peak(s, p));
+            largest_source_ = std::max(largest_source_, direct_peak(s, p));
+    if (sources.directional_emission) sample_emission();
+}
+
+/// Over equal projected solid angles.
+void GlossyElements::sample_emission() {
+    constexpr int tried = 32;
+    float peak = 0.0f;
+    for (const GlossySide& s : sides_) {
+        SpectrumSum sum(0.0);
+        for (int y = 0; y < tried; ++y)
+            for (int x = 0; x < tried; ++x) {
+                const glm::vec2 square = (glm::vec2(x, y) + 0.5f) / static_cast<float>(tried);
+                const Spectrum emitted =
+                    sources_.directional_emission(s, direction_of_square(square));
+                peak = std::max(peak, max_channel(emitted));
+                sum += SpectrumSum(emitted);
+            }
+        mean_emission_.emplace_back(sum / double{tried * tried});
+    }
+    largest_source_ += 2.0f * peak;  // a peak between the samples may be higher
 }
 
 template <class Body>
@@ -61,10 +77,6 @@ const GlossySide* GlossyElements::side_of(std::uint32_t patch) const {
     return sources_.glossy.find(root, patches_.is_back(patch));
 }
 
-const ProjectedBrdf& GlossyElements::projected(const GlossySide& side) const {
-    return projected_[projected_of_side_[&side - sides_.data()]];
-}
-
 /// Of the bundle's direction and its opposite, the one above the side.
 glm::vec3 GlossyElements::direction_above(std::uint32_t side, const Bundle& bundle) const {
     const glm::vec3 d = local_from_world_[side] * glm::vec3(bundle.frame[2]);
@@ -78,68 +90,91 @@ Spectrum GlossyElements::ratio(std::uint64_t element, const Spectrum& fallback) 
 
 float GlossyElements::direct_peak(const GlossySide& side, std::uint32_t patch) const {
     if (sources_.first_incoming.empty()) return 0.0f;
-    const Brdf& brdf = sources_.glossy.brdfs[side.brdf];
     Spectrum sum(0.0f);
     for (std::uint32_t i = sources_.first_incoming[patch]; i < sources_.first_incoming[patch + 1];
          ++i) {
         const IncomingLight& l = sources_.incoming[i];
-        sum += l.irradiance * (2.0f * evaluate_lobe(brdf, l.direction, mirrored(l.direction)) +
-                               sources_.albedo[patch]);
+        sum +=
+            l.irradiance * (2.0f * evaluate_lobe(brdf(side), l.direction, mirrored(l.direction)) +
+                            sources_.albedo[patch]);
     }
     return max_channel(sum);
 }
 
 Spectrum GlossyElements::direct_towards(const GlossySide& side, std::uint32_t patch,
                                         const glm::vec3& out) const {
-    if (sources_.first_incoming.empty()) return Spectrum(0.0f);
-    const Brdf& brdf = sources_.glossy.brdfs[side.brdf];
-    const Spectrum lambert = sources_.albedo[patch] * diffuse_coupling(brdf, out.z) /
-                             (std::numbers::pi_v<float> * mean_diffuse_coupling(brdf));
+    const Brdf& f = brdf(side);
+    const Spectrum lambert = sources_.albedo[patch] * diffuse_coupling(f, out.z) /
+                             (std::numbers::pi_v<float> * mean_diffuse_coupling(f));
     Spectrum sum(0.0f);
     for (std::uint32_t i = sources_.first_incoming[patch]; i < sources_.first_incoming[patch + 1];
          ++i) {
         const IncomingLight& l = sources_.incoming[i];
-        sum += l.irradiance * (lambert * diffuse_coupling(brdf, l.direction.z) +
-                               evaluate_lobe(brdf, l.direction, out));
+        sum += l.irradiance *
+               (lambert * diffuse_coupling(f, l.direction.z) + evaluate_lobe(f, l.direction, out));
     }
     return sum;
 }
 
-float GlossyElements::update_radiance(const std::vector<Spectrum>& fallback) {
+float GlossyElements::update_incoming(const std::vector<Spectrum>& fallback) {
     std::vector<float> largest(chunks_.size());
     for_chunks([&](const Chunk& c) {
         const GlossySide& s = sides_[c.side];
-        const ProjectedBrdf& projection = projected(s);
         float most = 0.0f;
-        for (int row = 0; row < s.row_count(); ++row)
+        for (int bin = 0; bin < s.bins(); ++bin)
             for (std::uint32_t p = s.first_patch + c.begin; p < s.first_patch + c.end; ++p) {
-                const std::uint64_t e = s.element(row, p);
-                const Spectrum incoming = ratio(e, fallback[p]);
-                Spectrum& r = radiance_[e];
-                r = row == 0 ? incoming : projection.lobe_albedo(row - 1) * incoming;
-                if (row > 0 && !sources_.element_emission.empty())
-                    r += sources_.element_emission[e];
-                const Spectrum sent = row == 0 ? sources_.emission[p] + r * sources_.albedo[p] : r;
-                most = std::max(most, max_channel(sent));
+                const std::uint64_t e = s.element(bin, p);
+                const Spectrum x = ratio(e, fallback[p]);
+                incoming_[e] = Sum{x.x, x.y, x.z, 0.0f};
+                most = std::max(most, max_channel(sources_.emission[p]) + max_channel(x));
             }
         largest[&c - chunks_.data()] = most;
     });
     float most = 0.0f;
     for (const float x : largest) most = std::max(most, x);
-    // Emission and Lambert part, lobe, and light of the first shot.
-    return 2.0f * most + largest_direct_;
+    // Both lobes together reflect no more than comes in from the brightest bin.
+    return most + largest_source_;
 }
 
 void GlossyElements::send(Exchange& exchange, const Bundle& bundle) const {
     for_chunks([&](const Chunk& c) {
         const GlossySide& s = sides_[c.side];
         const glm::vec3 d = direction_above(c.side, bundle);
-        const int row = 1 + bin_at(square_of_direction(d), s.bin_level);
-        const float coupling = diffuse_coupling(sources_.glossy.brdfs[s.brdf], d.z);
-        for (std::uint32_t p = s.first_patch + c.begin; p < s.first_patch + c.end; ++p) {
-            const Spectrum lambert = sources_.albedo[p] * coupling * radiance_[s.element(0, p)];
-            exchange.set_radiance(p, sources_.emission[p] + lambert + radiance_[s.element(row, p)] +
-                                         direct_towards(s, p, d));
+        const ProjectedBrdf& projection = projected(s);
+        const auto bins = static_cast<std::size_t>(s.bins());
+        std::array<float, bin_count(max_bin_level)> shares, coupled;
+        projection.shares(d, std::span(shares).first(bins));
+        // The Lambert part sees the bins by their coupling.
+        float all = 0.0f;
+        for (std::size_t k = 0; k < bins; ++k)
+            all += coupled[k] = projection.coupling(static_cast<int>(k));
+        const float towards = diffuse_coupling(brdf(s), d.z) / all;
+        const Spectrum lobe = lobe_albedo(brdf(s), d.z);
+        const Spectrum emission =
+            sources_.directional_emission ? sources_.directional_emission(s, d) : Spectrum(0.0f);
+        const bool has_direct = !sources_.first_incoming.empty();
+
+        std::array<Sum, strip> by_lobe, by_lambert;
+        for (std::uint32_t begin = c.begin; begin < c.end; begin += strip) {
+            const std::uint32_t count = std::min(strip, c.end - begin);
+            std::fill_n(by_lobe.begin(), count, Sum{});
+            std::fill_n(by_lambert.begin(), count, Sum{});
+            for (std::size_t k = 0; k < bins; ++k) {
+                const Sum* const x = incoming_.data() + s.first_element + k * s.leaf_count + begin;
+                for (std::uint32_t i = 0; i < count; ++i) {
+                    by_lobe[i] += shares[k] * x[i];
+                    by_lambert[i] += coupled[k] * x[i];
+                }
+            }
+            for (std::uint32_t i = 0; i < count; ++i) {
+                const std::uint32_t p = s.first_patch + begin + i;
+                const Sum g = by_lobe[i], l = towards * by_lambert[i];
+                Spectrum sent = sources_.emission[p] + emission +
+                                lobe * Spectrum(g[0], g[1], g[2]) +
+                                sources_.albedo[p] * Spectrum(l[0], l[1], l[2]);
+                if (has_direct) sent += direct_towards(s, p, d);
+                exchange.set_radiance(p, sent);
+            }
         }
     });
 }
@@ -148,76 +183,73 @@ void GlossyElements::receive(Exchange& exchange, const Bundle& bundle, double we
     for_chunks([&](const Chunk& c) {
         const GlossySide& s = sides_[c.side];
         const glm::vec3 d = direction_above(c.side, bundle);
-        std::array<float, most_rows> weights;
-        weights[0] = diffuse_coupling(sources_.glossy.brdfs[s.brdf], d.z);
-        const auto rows = static_cast<std::size_t>(s.row_count());
-        projected(s).lobe_into_bins(d, std::span(weights).subspan(1, rows - 1));
-        for (std::size_t row = 0; row < rows; ++row) weights[row] *= static_cast<float>(weight);
-
-        std::array<Sum, strip> arrived;
-        for (std::uint32_t begin = c.begin; begin < c.end; begin += strip) {
-            const std::uint32_t end = std::min(begin + strip, c.end);
-            for (std::uint32_t leaf = begin; leaf < end; ++leaf) {
-                const Received r = exchange.take(s.first_patch + leaf);
-                Received& sum = block_[first_glossy_patch_[c.side] + leaf];
-                sum.radiance += r.radiance;
-                sum.coverage += r.coverage;
-                const Spectrum radiance(r.radiance);
-                arrived[leaf - begin] =
-                    Sum{radiance.x, radiance.y, radiance.z, static_cast<float>(r.coverage)};
-            }
-            for (std::size_t row = 0; row < rows; ++row) {
-                Sum* const sums = sums_.data() + s.first_element + row * s.leaf_count + begin;
-                for (std::uint32_t i = 0; i < end - begin; ++i)
-                    sums[i] += weights[row] * arrived[i];
-            }
+        const int bin = bin_at(square_of_direction(d), s.bin_level);
+        const auto w = static_cast<float>(weight);
+        for (std::uint32_t leaf = c.begin; leaf < c.end; ++leaf) {
+            const std::uint32_t p = s.first_patch + leaf;
+            const Received r = exchange.take(p);
+            Received& sum = block_[first_glossy_patch_[c.side] + leaf];
+            sum.radiance += r.radiance;
+            sum.coverage += r.coverage;
+            const Spectrum radiance(r.radiance);
+            sums_[s.element(bin, p)] +=
+                w * Sum{radiance.x, radiance.y, radiance.z, static_cast<float>(r.coverage)};
         }
     });
 }
 
-GlossyElements::Place GlossyElements::place_of(std::uint32_t patch) const {
-    const GlossySide* const side = side_of(patch);
-    return {side, side ? patch - side->first_patch : 0};
-}
-
 Received GlossyElements::take(std::uint32_t patch) {
-    const Place at = place_of(patch);
-    return std::exchange(block_[first_glossy_patch_[at.side - sides_.data()] + at.leaf], {});
+    const GlossySide& s = *side_of(patch);
+    return std::exchange(block_[first_glossy_patch_[number_of(s)] + patch - s.first_patch], {});
 }
 
-SpectrumSum GlossyElements::reflected(std::uint32_t patch) const {
+SpectrumSum GlossyElements::incoming(std::uint32_t patch, const Spectrum& fallback) const {
+    const GlossySide& s = *side_of(patch);
+    SpectrumSum sum(0.0);
+    for (int k = 0; k < s.bins(); ++k) sum += SpectrumSum(ratio(s.element(k, patch), fallback));
+    return sum / static_cast<double>(s.bins());
+}
+
+SpectrumSum GlossyElements::reflected(std::uint32_t patch, const Spectrum& fallback) const {
     const GlossySide& s = *side_of(patch);
     const ProjectedBrdf& projection = projected(s);
-    const Brdf& brdf = sources_.glossy.brdfs[s.brdf];
-    SpectrumSum lobe(0.0);
-    for (int row = 1; row < s.row_count(); ++row)
-        lobe += SpectrumSum(projection.lobe_albedo(row - 1) *
-                            ratio(s.element(row, patch), Spectrum(0.0f)));
-    const Spectrum lambert = sources_.albedo[patch] * mean_diffuse_coupling(brdf) *
-                             ratio(s.element(0, patch), Spectrum(0.0f));
-    return SpectrumSum(lambert) + lobe / static_cast<double>(bin_count(s.bin_level));
+    SpectrumSum by_lobe(0.0), by_lambert(0.0);
+    double coupling = 0.0;
+    for (int k = 0; k < s.bins(); ++k) {
+        const Spectrum x = ratio(s.element(k, patch), fallback);
+        by_lobe += SpectrumSum(projection.lobe_albedo(k) * x);
+        by_lambert += SpectrumSum(projection.coupling(k) * x);
+        coupling += double{projection.coupling(k)};
+    }
+    const double mean = mean_diffuse_coupling(brdf(s));
+    return by_lobe / static_cast<double>(s.bins()) +
+           SpectrumSum(sources_.albedo[patch]) * by_lambert * (mean / coupling);
+}
+
+Spectrum GlossyElements::mean_emission(std::uint32_t patch) const {
+    return mean_emission_.empty() ? Spectrum(0.0f) : mean_emission_[number_of(*side_of(patch))];
 }
 
 Spectrum GlossyElements::mean_albedo(std::uint32_t patch) const {
-    Brdf brdf = sources_.glossy.brdfs[side_of(patch)->brdf];
-    brdf.diffuse = sources_.albedo[patch];
-    return transillum::mean_albedo(brdf);
+    Brdf f = brdf(*side_of(patch));
+    f.diffuse = sources_.albedo[patch];
+    return transillum::mean_albedo(f);
 }
 
 template <class Body>
-void GlossyElements::for_rows(std::uint32_t patch, Body body) {
+void GlossyElements::for_bins(std::uint32_t patch, Body body) {
     const GlossySide& s = *side_of(patch);
-    for (int row = 0; row < s.row_count(); ++row) body(sums_[s.element(row, patch)]);
+    for (int k = 0; k < s.bins(); ++k) body(sums_[s.element(k, patch)]);
 }
 
 void GlossyElements::scale_incoming(std::uint32_t patch, const SpectrumSum& factor) {
     const Spectrum f(factor);
-    for_rows(patch, [&](Sum& s) { s *= Sum{f.x, f.y, f.z, 1.0f}; });
+    for_bins(patch, [&](Sum& s) { s *= Sum{f.x, f.y, f.z, 1.0f}; });
 }
 
 void GlossyElements::set_incoming(std::uint32_t patch, const SpectrumSum& incoming) {
     const Spectrum x(incoming);
-    for_rows(patch, [&](Sum& s) { s = s[3] * Sum{x.x, x.y, x.z, 1.0f}; });
+    for_bins(patch, [&](Sum& s) { s = s[3] * Sum{x.x, x.y, x.z, 1.0f}; });
 }
 
 void GlossyElements::restart(float prior_weight) {
@@ -235,16 +267,13 @@ void GlossyElements::forget() {
     earlier_ = {};
 }
 
-std::vector<Spectrum> GlossyElements::values() const {
+std::vector<Spectrum> GlossyElements::values(const std::vector<Spectrum>& fallback) const {
     std::vector<Spectrum> values(sums_.size());
     for_chunks([&](const Chunk& c) {
         const GlossySide& s = sides_[c.side];
-        for (int row = 0; row < s.row_count(); ++row)
-            for (std::uint32_t p = s.first_patch + c.begin; p < s.first_patch + c.end; ++p) {
-                const std::uint64_t e = s.element(row, p);
-                const Spectrum incoming = ratio(e, ratio(s.element(0, p), Spectrum(0.0f)));
-                values[e] = row == 0 ? incoming : projected(s).lobe_albedo(row - 1) * incoming;
-            }
+        for (int k = 0; k < s.bins(); ++k)
+            for (std::uint32_t p = s.first_patch + c.begin; p < s.first_patch + c.end; ++p)
+                values[s.element(k, p)] = ratio(s.element(k, p), fallback[p]);
     });
     return values;
 }

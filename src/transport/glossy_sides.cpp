@@ -2,7 +2,9 @@
 #include <transillum/transport/glossy_sides.h>
 
 #include <array>
+#include <map>
 #include <string>
+#include <utility>
 
 namespace transillum {
 
@@ -56,17 +58,22 @@ GlossySides lay_out_glossy_sides(const SurfaceMesh& mesh, const PatchHierarchy& 
     GlossySides glossy;
     for (const Material& m : mesh.materials) glossy.brdfs.push_back(brdf_of(m));
     glossy.of_root_side.assign(bin_levels.size(), GlossySides::none);
+    std::map<std::pair<std::uint32_t, int>, std::uint32_t> known;
     for (const std::uint32_t back : {0u, 1u})
         for (std::uint32_t r = 0; r < mesh.triangles.size(); ++r) {
             const int level = bin_levels[2 * r + back];
             if (level < 0) continue;
-            GlossySide side{r, back == 1, mesh.triangles[r].material, level};
+            const std::uint32_t m = mesh.triangles[r].material;
+            const auto [at, is_new] = known.try_emplace(
+                {m, level}, static_cast<std::uint32_t>(glossy.projections.size()));
+            if (is_new) glossy.projections.emplace_back(glossy.brdfs[m], level);
+            GlossySide side{r, back == 1, m, at->second, level};
             side.first_patch = patches.roots[r].first_leaf + (back ? patches.leaf_count : 0);
             side.leaf_count = (r + 1 < patches.roots.size() ? patches.roots[r + 1].first_leaf
                                                             : patches.leaf_count) -
                               patches.roots[r].first_leaf;
             side.first_element = glossy.element_count;
-            glossy.element_count += static_cast<std::uint64_t>(side.row_count()) * side.leaf_count;
+            glossy.element_count += static_cast<std::uint64_t>(side.bins()) * side.leaf_count;
             glossy.of_root_side[2 * r + back] = static_cast<std::uint32_t>(glossy.sides.size());
             glossy.sides.push_back(side);
         }

@@ -1,16 +1,14 @@
 /// Which sides of the surface are glossy, and the finite elements they have (paper §2.1).
 ///
-/// A glossy side has 1 + 4^bin_level rows of elements, one element a leaf in each:
-///   row 0      mean incoming radiance as the Lambert part weighs it: that part's radiance towards
-///              an angle is diffuse albedo * diffuse_coupling(angle) * row 0
-///   row 1 + j  mean radiance that the lobe reflects into direction bin j [W sr^-1 m^-2]
-/// Sides without a lobe have none: their irradiance says all.
+/// A glossy side has 4^bin_level rows of elements, one element a leaf in each: the mean radiance
+/// that arrives from direction bin k [W sr^-1 m^-2]. What the side reflects of it towards any
+/// direction follows from its projected BRDF. Sides without a lobe have none: their irradiance says
+/// all.
 #pragma once
 
 #include <transillum/geometry/patch_hierarchy.h>
 #include <transillum/geometry/surface_mesh.h>
-#include <transillum/scene/brdf.h>
-#include <transillum/transport/direction_bins.h>
+#include <transillum/transport/projected_brdf.h>
 
 #include <cstdint>
 #include <span>
@@ -21,20 +19,22 @@ namespace transillum {
 struct GlossySide {
     std::uint32_t root = 0;
     bool back = false;
-    std::uint32_t brdf = 0;  ///< index into GlossySides::brdfs
+    std::uint32_t brdf = 0;        ///< index into GlossySides::brdfs
+    std::uint32_t projection = 0;  ///< index into GlossySides::projections
     std::int32_t bin_level = 0;
     std::uint32_t first_patch = 0, leaf_count = 0;
     std::uint64_t first_element = 0;
 
-    [[nodiscard]] int row_count() const { return 1 + bin_count(bin_level); }
-    [[nodiscard]] std::uint64_t element(int row, std::uint32_t patch) const {
-        return first_element + static_cast<std::uint64_t>(row) * leaf_count + patch - first_patch;
+    [[nodiscard]] int bins() const { return bin_count(bin_level); }
+    [[nodiscard]] std::uint64_t element(int bin, std::uint32_t patch) const {
+        return first_element + static_cast<std::uint64_t>(bin) * leaf_count + patch - first_patch;
     }
 };
 
 struct GlossySides {
     static constexpr std::uint32_t none = 0xffffffffu;
-    std::vector<Brdf> brdfs;  ///< one a material
+    std::vector<Brdf> brdfs;                 ///< one a material
+    std::vector<ProjectedBrdf> projections;  ///< one a glossy material and bin level
     std::vector<GlossySide> sides;
     std::vector<std::uint32_t> of_root_side;  ///< 2 * root + back -> index into sides, or none
     std::uint64_t element_count = 0;

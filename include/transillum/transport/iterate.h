@@ -10,6 +10,7 @@
 #include <transillum/transport/glossy_sides.h>
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace transillum {
@@ -48,9 +49,9 @@ struct PatchSources {
     /// §4). Both empty without a first shot on glossy sides.
     std::vector<std::uint32_t> first_incoming;
     std::vector<IncomingLight> incoming;
-    /// Added to what a glossy side's lobe sends into its bins, one an element: directional emission
-    /// [W sr^-1 m^-2]. Empty for none; row 0 is not used.
-    std::vector<Spectrum> element_emission;
+    /// Emission of glossy sides that depends on the direction, beside `emission`
+    /// [W sr^-1 m^-2]: by side and unit direction in its bin_frame. Empty for none.
+    std::function<Spectrum(const GlossySide& side, const glm::vec3& out)> directional_emission;
     Environment environment;
 };
 

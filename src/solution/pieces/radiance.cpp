@@ -32,52 +32,42 @@ void add_provenance(const Solution& solution, const Patches& stored, vtkFieldDat
 }
 
 /// Direction bins: of cell i, tuples [BinOffset, BinOffset + BinCount) of the field array
-/// DirectionBins hold the lobe's radiance, row-major over the square of direction_bins.h; none for
-/// a patch without a lobe. DiffuseIncoming is what its Lambert part sees (row 0 of its elements).
+/// DirectionBins hold the mean radiance that arrives from each bin, row-major over the square of
+/// direction_bins.h. A patch without a lobe has none beyond its irradiance.
 void add_bins(const Solution& solution, const Patches& stored, vtkPolyData& piece) {
     vtkCellData& cells = *piece.GetCellData();
     std::vector<std::uint64_t> offsets{0};
+    std::vector<Spectrum> bins;
     for (const std::uint32_t p : stored) {
-        const GlossySide* const side = solution.glossy_side(p);
-        offsets.push_back(offsets.back() + (side ? bin_count(side->bin_level) : 0));
+        if (const GlossySide* const side = solution.glossy_side(p))
+            for (int k = 0; k < side->bins(); ++k)
+                bins.push_back(solution.glossy_elements[side->element(k, p)]);
+        offsets.push_back(bins.size());
     }
     add_array(cells, "BinOffset", stored.size(), [&](std::size_t i) { return offsets[i]; });
     add_array(cells, "BinCount", stored.size(), [&](std::size_t i) {
-        return static_cast<std::uint32_t>(offsets[i + 1] - offsets[i]);
+        return std::max(std::uint32_t{1}, static_cast<std::uint32_t>(offsets[i + 1] - offsets[i]));
     });
-    if (solution.glossy.empty()) return;
-    add_array(cells, "DiffuseIncoming", stored.size(), [&](std::size_t i) {
-        const GlossySide* const side = solution.glossy_side(stored[i]);
-        return side ? solution.glossy_elements[side->element(0, stored[i])] : Spectrum(0.0f);
-    });
-    std::vector<Spectrum> bins(offsets.back());
-    for (std::size_t i = 0; i < stored.size(); ++i)
-        for (std::uint64_t j = offsets[i]; j < offsets[i + 1]; ++j)
-            bins[j] = solution.glossy_elements[solution.glossy_side(stored[i])->element(
-                1 + static_cast<int>(j - offsets[i]), stored[i])];
-    add_array(*piece.GetFieldData(), "DirectionBins", bins.size(),
-              [&](std::size_t j) { return bins[j]; });
+    if (!bins.empty())
+        add_array(*piece.GetFieldData(), "DirectionBins", bins.size(),
+                  [&](std::size_t j) { return bins[j]; });
 }
 
 /// \pre the solution's glossy sides are laid out.
 void read_bins(vtkPolyData& piece, const Path& file, const Patches& stored, Solution& solution) {
     solution.glossy_elements.assign(solution.glossy.element_count, Spectrum(0.0f));
-    if (solution.glossy.empty()) return;
-    const ArrayReader cells{*piece.GetCellData(), file}, fields{*piece.GetFieldData(), file};
-    const auto incoming = cells.read<Spectrum>("DiffuseIncoming", stored.size());
     std::size_t count = 0;
     for (const std::uint32_t p : stored)
         if (const GlossySide* const side = solution.glossy_side(p))
-            count += static_cast<std::size_t>(bin_count(side->bin_level));
+            count += static_cast<std::size_t>(side->bins());
+    if (count == 0) return;
+    const ArrayReader fields{*piece.GetFieldData(), file};
     const auto bins = fields.read<Spectrum>("DirectionBins", count);
     std::size_t next = 0;
-    for (std::size_t i = 0; i < stored.size(); ++i) {
-        const GlossySide* const side = solution.glossy_side(stored[i]);
-        if (!side) continue;
-        solution.glossy_elements[side->element(0, stored[i])] = incoming[i];
-        for (int row = 1; row < side->row_count(); ++row)
-            solution.glossy_elements[side->element(row, stored[i])] = bins[next++];
-    }
+    for (const std::uint32_t p : stored)
+        if (const GlossySide* const side = solution.glossy_side(p))
+            for (int k = 0; k < side->bins(); ++k)
+                solution.glossy_elements[side->element(k, p)] = bins[next++];
 }
 
 template <class Value>

@@ -141,8 +141,8 @@ void read_bin_levels(const ArrayReader& reader, const Path& file, Solution& solu
             const auto of_roots = reader.read<std::int32_t>(name, roots);
             for (std::size_t i = 0; i < roots; ++i) {
                 if (of_roots[i] < -1 || of_roots[i] > max_bin_level)
-                    throw InputError(file.string(), std::string("array '") + name + "': " +
-                                                        std::to_string(of_roots[i]) +
+                    throw InputError(file.string(), std::string("array '") + name +
+                                                        "': " + std::to_string(of_roots[i]) +
                                                         " is outside [-1, " +
                                                         std::to_string(max_bin_level) + "]");
                 levels[2 * i + back] = static_cast<std::int8_t>(of_roots[i]);

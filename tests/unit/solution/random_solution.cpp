@@ -105,6 +105,21 @@ void light_patch(Dice& dice, const Shape& shape, Solution& solution, std::uint32
     }
 }
 
+/// Levels at random; what is dark stays so.
+void add_glossy_elements(Dice& dice, Solution& solution) {
+    std::vector<std::int8_t> levels = choose_bin_levels(solution.surface, {});
+    for (std::int8_t& level : levels)
+        if (level >= 0) level = static_cast<std::int8_t>(dice.below(max_bin_level + 1));
+    solution.glossy = lay_out_glossy_sides(solution.surface, solution.patches, levels);
+    solution.glossy_elements.assign(solution.glossy.element_count, Spectrum(0.0f));
+    for (const GlossySide& side : solution.glossy.sides)
+        for (std::uint32_t p = side.first_patch; p < side.first_patch + side.leaf_count; ++p) {
+            if (solution.indirect_irradiance[p] == Spectrum(0.0f)) continue;
+            for (int k = 0; k < side.bins(); ++k)
+                solution.glossy_elements[side.element(k, p)] = dice.spectrum();
+        }
+}
+
 void add_summary(Dice& dice, Solution& solution) {
     solution.iterations = dice.bits();
     solution.seed = dice.bits();
@@ -142,6 +157,12 @@ auto tie_of(const LightSample& s) {
 auto tie_of(const RootPatches& r) {
     const auto& [first_leaf, level] = r;
     return std::tie(first_leaf, level);
+}
+auto tie_of(const GlossySide& s) {
+    const auto& [root, back, brdf, projection, bin_level, first_patch, leaf_count, first_element] =
+        s;
+    return std::tie(root, back, brdf, projection, bin_level, first_patch, leaf_count,
+                    first_element);
 }
 auto tie_of(const Decision& d) {
     const auto& [what, why] = d;
@@ -197,6 +218,7 @@ Solution random_solution(const Shape& shape, unsigned seed) {
     for (std::uint32_t patch = 0; patch < solution.patches.patch_count(); ++patch) {
         light_patch(dice, shape, solution, patch);
     }
+    add_glossy_elements(dice, solution);
     for (int i = 0; i < shape.cameras; ++i) {
         solution.cameras.push_back(
             {dice.text(), dice.point(), dice.point(), dice.point(), 1.0 + 178.0 * dice.number()});
@@ -205,10 +227,20 @@ Solution random_solution(const Shape& shape, unsigned seed) {
     return solution;
 }
 
+void expect_equal(const GlossySides& a, const GlossySides& b) {
+    // The tables follow from the materials.
+    const auto& [brdfs, projections, sides, of_root_side, element_count] = a;
+    EXPECT_EQ(brdfs.size(), b.brdfs.size());
+    EXPECT_EQ(projections.size(), b.projections.size());
+    expect_equal_structs(sides, b.sides);
+    EXPECT_EQ(of_root_side, b.of_root_side);
+    EXPECT_EQ(element_count, b.element_count);
+}
+
 void expect_equal(const Solution& a, const Solution& b) {
-    const auto& [surface, patches, direct, cameras, direct_irradiance, indirect_irradiance,
-                 standard_error, coverage, iterations, seed, relative_error, interrupted, balance,
-                 decisions, settings, scene_hash] = a;
+    const auto& [surface, patches, direct, glossy, cameras, direct_irradiance, indirect_irradiance,
+                 standard_error, coverage, glossy_elements, iterations, seed, relative_error,
+                 interrupted, balance, decisions, settings, scene_hash] = a;
     expect_equal(surface, b.surface);
     expect_equal(patches, b.patches);
     expect_equal(direct, b.direct);
@@ -217,6 +249,8 @@ void expect_equal(const Solution& a, const Solution& b) {
     EXPECT_TRUE(indirect_irradiance == b.indirect_irradiance);
     EXPECT_TRUE(standard_error == b.standard_error);
     EXPECT_EQ(coverage, b.coverage);
+    expect_equal(glossy, b.glossy);
+    EXPECT_TRUE(glossy_elements == b.glossy_elements);
     EXPECT_EQ(iterations, b.iterations);
     EXPECT_EQ(seed, b.seed);
     EXPECT_EQ(relative_error, b.relative_error);
