@@ -50,9 +50,9 @@ private:
 };
 
 void GltfReader::check_extensions() {
-    constexpr std::array<std::string_view, 4> honoured{
-        "KHR_materials_emissive_strength", "KHR_materials_transmission", "KHR_mesh_quantization",
-        "KHR_texture_transform"};
+    constexpr std::array<std::string_view, 6> honoured{
+        "KHR_materials_emissive_strength", "KHR_materials_ior",     "KHR_materials_specular",
+        "KHR_materials_transmission",      "KHR_mesh_quantization", "KHR_texture_transform"};
     const auto is_honoured = [&](const Json& name) {
         return std::ranges::count(honoured, name.get<std::string>()) > 0;
     };
@@ -61,8 +61,9 @@ void GltfReader::check_extensions() {
             document_.fail(
                 "extensionsRequired",
                 in_quotes(name.get<std::string>()) +
-                    " found; accepted: KHR_materials_emissive_strength, "
-                    "KHR_materials_transmission, KHR_mesh_quantization, KHR_texture_transform");
+                    " found; accepted: KHR_materials_emissive_strength, KHR_materials_ior, "
+                    "KHR_materials_specular, KHR_materials_transmission, KHR_mesh_quantization, "
+                    "KHR_texture_transform");
     for (const Json& name : document_.root().value("extensionsUsed", Json::array()))
         if (!is_honoured(name)) left_out_.insert("extension " + name.get<std::string>());
     for (const char* array : {"skins", "animations"})
@@ -79,6 +80,7 @@ std::uint32_t GltfReader::material_of(const Json& primitive) {
         // glTF: white, fully metallic, single-sided
         m.diffuse = Spectrum(0.0f);
         m.specular = Spectrum(1.0f);
+        m.lobe = Lobe::ggx;
         m.back_reflects = false;
         scene_.materials.push_back(m);
     }
