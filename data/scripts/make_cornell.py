@@ -94,7 +94,7 @@ class Builder:
         self.buffer = bytearray()
         self.document = {
             "asset": {"version": "2.0", "generator": "make_cornell.py"},
-            "extensionsUsed": ["KHR_materials_emissive_strength"],
+            "extensionsUsed": ["KHR_materials_emissive_strength", "KHR_materials_specular"],
             "scene": 0,
             "scenes": [{"name": "Cornell box, millimetres", "nodes": []}],
             "nodes": [], "cameras": [], "materials": [], "meshes": [],
@@ -114,12 +114,13 @@ class Builder:
             "pbrMetallicRoughness": {
                 "baseColorFactor": [*colour, 1.0], "metallicFactor": 0.0, "roughnessFactor": 1.0},
             "doubleSided": double_sided,
+            "extensions": {"KHR_materials_specular": {"specularFactor": 0.0}},  # Lambert
         }
         if emission:
             strength = max(emission)
             material["emissiveFactor"] = [round(c / strength, 9) for c in emission]
-            material["extensions"] = {
-                "KHR_materials_emissive_strength": {"emissiveStrength": strength}}
+            material["extensions"]["KHR_materials_emissive_strength"] = {
+                "emissiveStrength": strength}
         self.add("materials", material)
 
     def add_accessor(self, data, target, **accessor):

@@ -37,6 +37,10 @@ float lobe_density(const Brdf& brdf, const glm::vec3& in, const glm::vec3& out) 
 
 }  // namespace
 
+Spectrum Material::albedo() const {
+    return lobe == Lobe::ggx ? mean_albedo(brdf_of(*this)) : diffuse + specular;
+}
+
 Brdf brdf_of(const Material& material) {
     Brdf brdf;
     brdf.diffuse = material.diffuse;

@@ -58,6 +58,38 @@ std::string place_of_material(std::size_t index, const std::string& name) {
     return place_of("materials", index) + " " + in_quotes(name);
 }
 
+/// What reflects: a dielectric of that reflectance over the base colour, or a metal of it.
+struct Reflection {
+    Spectrum base;
+    float metallic;
+    Spectrum dielectric;
+
+    void fill(Material& m) const {
+        m.diffuse = base * (1.0f - metallic);
+        m.specular = glm::mix(dielectric, base, metallic);
+        m.lobe = max_channel(m.specular) > 0.0f ? Lobe::ggx : Lobe::none;
+    }
+};
+
+/// Of a dielectric along the normal: Fresnel's, by KHR_materials_ior, times the factors of
+/// KHR_materials_specular.
+Spectrum dielectric_reflectance(const Factors& factors, const Json& extensions) {
+    const Json& specular = object_or_empty(extensions, "KHR_materials_specular");
+    const float ior =
+        factors.scalar(object_or_empty(extensions, "KHR_materials_ior"), "ior", 1.5, unbounded);
+    const float root = (ior - 1.0f) / (ior + 1.0f);
+    const Spectrum colour = factors.vector<3>(specular, "specularColorFactor", 1.0, unbounded);
+    return factors.scalar(specular, "specularFactor", 1.0, 1.0) *
+           glm::min(root * root * colour, Spectrum(1.0f));
+}
+
+Reflection read_reflection(const Factors& factors, const Json& json) {
+    const Json& pbr = object_or_empty(json, "pbrMetallicRoughness");
+    return {Spectrum(factors.vector<4>(pbr, "baseColorFactor", 1.0, 1.0)),
+            factors.scalar(pbr, "metallicFactor", 1.0, 1.0),
+            dielectric_reflectance(factors, object_or_empty(json, "extensions"))};
+}
+
 Material read_material(const GltfDocument& document, std::size_t index, Monitor& monitor) {
     const Json& json = document.root().at("materials")[index];
     Material m = named_material(json.value("name", "material " + std::to_string(index)));
@@ -66,11 +98,17 @@ Material read_material(const GltfDocument& document, std::size_t index, Monitor&
     const Json& extensions = object_or_empty(json, "extensions");
     const Json& pbr = object_or_empty(json, "pbrMetallicRoughness");
 
-    const glm::vec4 base = factors.vector<4>(pbr, "baseColorFactor", 1.0, 1.0);
-    const float metallic = factors.scalar(pbr, "metallicFactor", 1.0, 1.0);
-    m.diffuse = Spectrum(base) * (1.0f - metallic);
-    m.specular = Spectrum(base) * metallic;
+    const float alpha = factors.vector<4>(pbr, "baseColorFactor", 1.0, 1.0).a;
+    read_reflection(factors, json).fill(m);
     m.roughness = factors.scalar(pbr, "roughnessFactor", 1.0, 1.0);
+
+    const float specular_factor = factors.scalar(
+        object_or_empty(extensions, "KHR_materials_specular"), "specularFactor", 1.0, 1.0);
+    if (specular_factor > 0.0f && specular_factor < 1.0f)
+        monitor.note(
+            document.where() + ": " + place +
+            ": specularFactor counts along the normal; grazing light is reflected as if it "
+            "were 1");
 
     m.emission = factors.vector<3>(json, "emissiveFactor", 0.0, unbounded);
     if (max_channel(m.emission) > 1.0f)
@@ -85,9 +123,9 @@ Material read_material(const GltfDocument& document, std::size_t index, Monitor&
                                       "transmissionFactor", 0.0, 1.0);
     const std::string mode = json.value("alphaMode", "OPAQUE");
     if (mode == "BLEND")
-        m.opacity *= base.a;
+        m.opacity *= alpha;
     else if (mode == "MASK")
-        m.opacity = base.a < factors.scalar(json, "alphaCutoff", 0.5, unbounded) ? 0.0f : m.opacity;
+        m.opacity = alpha < factors.scalar(json, "alphaCutoff", 0.5, unbounded) ? 0.0f : m.opacity;
     else if (mode != "OPAQUE")
         document.fail(place, "alphaMode " + in_quotes(mode) + "; accepted: OPAQUE, MASK, BLEND");
     m.back_reflects = m.back_emits = json.value("doubleSided", false);
@@ -135,8 +173,9 @@ void bake_gltf_textures(const GltfDocument& document, std::size_t index, Materia
     if (!pbr.contains("baseColorTexture")) return;
 
     const glm::dvec4 mean = mean_of_texture(document, place, pbr.at("baseColorTexture"));
-    material.diffuse *= Spectrum(mean);
-    material.specular *= Spectrum(mean);
+    Reflection reflection = read_reflection(Factors(document, place), json);
+    reflection.base *= Spectrum(mean);
+    reflection.fill(material);
     if (json.value("alphaMode", "OPAQUE") == "BLEND")
         material.opacity *= static_cast<float>(mean.a);
     monitor.note(where + ": its base colour texture is baked with its mean colour");

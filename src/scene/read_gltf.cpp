@@ -51,19 +51,20 @@ private:
 };
 
 void GltfReader::check_extensions() {
-    constexpr std::array<std::string_view, 5> honoured{
-        "KHR_lights_punctual", "KHR_materials_emissive_strength", "KHR_materials_transmission",
-        "KHR_mesh_quantization", "KHR_texture_transform"};
+    constexpr std::array<std::string_view, 7> honoured{
+        "KHR_lights_punctual",    "KHR_materials_emissive_strength", "KHR_materials_ior",
+        "KHR_materials_specular", "KHR_materials_transmission",      "KHR_mesh_quantization",
+        "KHR_texture_transform"};
+    std::string accepted;
+    for (const std::string_view name : honoured)
+        accepted.append(accepted.empty() ? "" : ", ").append(name);
     const auto is_honoured = [&](const Json& name) {
         return std::ranges::count(honoured, name.get<std::string>()) > 0;
     };
     for (const Json& name : document_.root().value("extensionsRequired", Json::array()))
         if (!is_honoured(name))
-            document_.fail(
-                "extensionsRequired",
-                in_quotes(name.get<std::string>()) +
-                    " found; accepted: KHR_lights_punctual, KHR_materials_emissive_strength, "
-                    "KHR_materials_transmission, KHR_mesh_quantization, KHR_texture_transform");
+            document_.fail("extensionsRequired",
+                           in_quotes(name.get<std::string>()) + " found; accepted: " + accepted);
     for (const Json& name : document_.root().value("extensionsUsed", Json::array()))
         if (!is_honoured(name)) left_out_.insert("extension " + name.get<std::string>());
     for (const char* array : {"skins", "animations"})
@@ -80,6 +81,7 @@ std::uint32_t GltfReader::material_of(const Json& primitive) {
         // glTF: white, fully metallic, single-sided
         m.diffuse = Spectrum(0.0f);
         m.specular = Spectrum(1.0f);
+        m.lobe = Lobe::ggx;
         m.back_reflects = false;
         scene_.materials.push_back(m);
     }

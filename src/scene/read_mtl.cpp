@@ -3,6 +3,8 @@
 #include "scene/soup.h"
 #include "scene/text_reader.h"
 
+#include <transillum/scene/brdf.h>
+
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -148,8 +150,13 @@ void MtlReader::finish_material() {
     }
     const bool glossy = m.ks && max_channel(*m.ks) > 0.0f && m.illum.value_or(2.0) >= 2.0;
     if (glossy) {
+        material.lobe = Lobe::max_phong;
         material.specular = *m.ks;
-        material.shininess = static_cast<float>(m.ns.value_or(0.0));
+        material.shininess = static_cast<float>(m.ns.value_or(least_shininess));
+        if (!m.ns || material.shininess < least_shininess)
+            monitor_.note(path_ + ": material " + in_quotes(m.name) + " has Ks and " +
+                          (m.ns ? "an Ns of " + shown(*m.ns) : "no Ns") + "; " +
+                          shown(least_shininess) + " is taken");
     }
     material.emission = m.ke.value_or(Spectrum(0.0f));
     material.opacity = static_cast<float>(m.opacity.value_or(1.0 - m.transparency.value_or(0.0)));

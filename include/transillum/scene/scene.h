@@ -41,8 +41,9 @@ struct Material {
     bool back_emits = false;
     float opacity = 1.0f;  ///< below 1 the surface is treated as opaque, with a warning
 
-    /// Bound of the reflected share of what comes along the normal, both lobes [1].
-    [[nodiscard]] Spectrum albedo() const { return diffuse + specular; }
+    /// Reflected share of light, both lobes [1]. Without GGX: diffuse + specular, a bound at any
+    /// angle. GGX: that of uniform light; near the horizon, Fresnel's term reflects more.
+    [[nodiscard]] Spectrum albedo() const;
     [[nodiscard]] bool emits() const { return max_channel(emission) > 0.0f; }
 };
 

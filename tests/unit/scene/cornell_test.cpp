@@ -31,6 +31,10 @@ TEST_F(Cornell, LoadsWithoutAWord) {
     EXPECT_TRUE(monitor_.notes.empty());
 }
 
+TEST_F(Cornell, IsLambertThroughout) {
+    for (const Material& m : scene_.materials) EXPECT_EQ(m.lobe, Lobe::none) << m.name;
+}
+
 TEST_F(Cornell, HasALightThatShinesDown) {
     double area = 0.0;
     for (std::size_t p = 0; p < scene_.polygons.size(); ++p) {

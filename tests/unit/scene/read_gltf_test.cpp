@@ -130,7 +130,10 @@ TEST_F(ReadGltf, ReadsMaterials) {
         "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 8}},
         "pbrMetallicRoughness": {"baseColorFactor": [0.5, 1, 0.25, 1], "metallicFactor": 0.25, "roughnessFactor": 0.5}})");
     EXPECT_EQ(m.diffuse, Spectrum(0.375f, 0.75f, 0.1875f));
-    EXPECT_EQ(m.specular, Spectrum(0.125f, 0.25f, 0.0625f));
+    EXPECT_EQ(m.lobe, Lobe::ggx);
+    // a quarter metal, three quarters dielectric
+    for (int c = 0; c < channel_count; ++c)
+        EXPECT_FLOAT_EQ(m.specular[c], 0.25f * Spectrum(0.5f, 1.0f, 0.25f)[c] + 0.75f * 0.04f);
     EXPECT_EQ(m.roughness, 0.5f);
     EXPECT_EQ(m.emission, Spectrum(8.0f, 4.0f, 2.0f));
     EXPECT_TRUE(m.back_reflects);
@@ -148,6 +151,31 @@ TEST_F(ReadGltf, TakesAbsentFactorsAsTheSpecificationSays) {
     document["meshes"][0]["primitives"][0].erase("material");
     const Scene scene = load_json(document);
     EXPECT_EQ(scene.materials.at(scene.polygons[0].material).specular, Spectrum(1.0f));
+    EXPECT_EQ(scene.materials.at(scene.polygons[0].material).lobe, Lobe::ggx);
+}
+
+TEST_F(ReadGltf, TakesDielectricsAsTheirExtensionsSay) {
+    const auto specular_of = [&](const std::string& extensions) {
+        return material_of(R"({"name": "m", "pbrMetallicRoughness": {"metallicFactor": 0},
+            "extensions": {)" +
+                           extensions + "}}");
+    };
+    EXPECT_FLOAT_EQ(specular_of(R"("KHR_materials_ior": {"ior": 2})").specular.r, 1.0f / 9.0f);
+    EXPECT_TRUE(monitor_.notes.empty());
+    const Material m = specular_of(R"("KHR_materials_specular":
+        {"specularFactor": 0.5, "specularColorFactor": [1, 0.5, 100]})");
+    EXPECT_FLOAT_EQ(m.specular.r, 0.02f);
+    EXPECT_FLOAT_EQ(m.specular.g, 0.01f);
+    EXPECT_FLOAT_EQ(m.specular.b, 0.5f) << "the reflectance ends at 1 before the factor";
+    EXPECT_TRUE(monitor_.any_names(monitor_.notes, "'m': specularFactor counts along the normal"));
+}
+
+TEST_F(ReadGltf, TakesASpecularFactorOfZeroForLambert) {
+    const Material m = material_of(R"({"name": "m", "pbrMetallicRoughness": {"metallicFactor": 0},
+            "extensions": {"KHR_materials_specular": {"specularFactor": 0}}})");
+    EXPECT_EQ(m.lobe, Lobe::none);
+    EXPECT_EQ(m.specular, Spectrum(0.0f));
+    EXPECT_EQ(m.diffuse, Spectrum(1.0f));
 }
 
 TEST_F(ReadGltf, AcceptsEmissionAboveOneWithANote) {
@@ -190,6 +218,11 @@ TEST_F(ReadGltf, RefusesWrongFactors) {
                          {"materials[0] 'm'", "emissiveFactor has -1"});
     expect_patch_refused("/materials/0/pbrMetallicRoughness/metallicFactor", 1.5,
                          {"metallicFactor has 1.5"});
+    expect_patch_refused("/materials/0/extensions",
+                         {{"KHR_materials_specular", {{"specularFactor", 2}}}},
+                         {"specularFactor has 2; accepted: 0 to 1"});
+    expect_patch_refused("/materials/0/extensions", {{"KHR_materials_ior", {{"ior", -1}}}},
+                         {"ior has -1; accepted: 0 or more"});
     expect_patch_refused("/materials/0/emissiveFactor", {1, 1}, {"accepted: 3 numbers"});
     expect_patch_refused("/materials/0/alphaMode", "DITHER", {"alphaMode 'DITHER'"});
     expect_patch_refused("/materials/0/name", 7, {"x.gltf", "/materials/0/name"});

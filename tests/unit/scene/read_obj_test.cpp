@@ -1,5 +1,7 @@
 #include "unit/scene/scene_files.h"
 
+#include <transillum/scene/brdf.h>
+
 #include <OpenImageIO/imageio.h>
 
 namespace transillum {
@@ -124,6 +126,7 @@ TEST_F(ReadObj, ReadsMaterials) {
     EXPECT_EQ(m.name, "m");
     EXPECT_EQ(m.diffuse, Spectrum(0.1f, 0.2f, 0.3f));
     EXPECT_EQ(m.specular, Spectrum(0.4f, 0.5f, 0.6f));
+    EXPECT_EQ(m.lobe, Lobe::max_phong);
     EXPECT_EQ(m.shininess, 50.0f);
     EXPECT_EQ(m.emission, Spectrum(7.0f, 8.0f, 9.0f));
     EXPECT_EQ(m.opacity, 1.0f);
@@ -133,8 +136,17 @@ TEST_F(ReadObj, ReadsMaterials) {
 TEST_F(ReadObj, TakesKsOnlyWithHighlights) {
     EXPECT_EQ(material_of("Kd 0 0 0\nKs 1 1 1\nNs 9\nillum 1\n").specular, Spectrum(0.0f));
     EXPECT_EQ(material_of("Kd 0 0 0\nKs 1 1 1\nNs 9\nillum 1\n").shininess, 0.0f);
+    EXPECT_EQ(material_of("Kd 0 0 0\nKs 1 1 1\nNs 9\nillum 1\n").lobe, Lobe::none);
+    EXPECT_EQ(material_of("Kd 1 1 1\nKs 0 0 0\nNs 9\nillum 2\n").lobe, Lobe::none);
     EXPECT_EQ(material_of("Kd 0 0 0\nillum 2\nKs 1 1 1\n").specular, Spectrum(1.0f));
     EXPECT_EQ(material_of("Kd 0 0 0\nKs 1 1 1\n").specular, Spectrum(1.0f));
+}
+
+TEST_F(ReadObj, SaysWhichShininessItTakesWhereNsIsMissingOrTooLow) {
+    EXPECT_EQ(material_of("Kd 0 0 0\nKs 1 1 1\n").shininess, 1.0f);
+    EXPECT_TRUE(monitor_.any_names(monitor_.notes, "material 'm' has Ks and no Ns; 1 is taken"));
+    EXPECT_EQ(brdf_of(material_of("Kd 0 0 0\nKs 1 1 1\nNs 0.5\n")).shininess, 1.0f);
+    EXPECT_TRUE(monitor_.any_names(monitor_.notes, "has Ks and an Ns of 0.5; 1 is taken"));
 }
 
 TEST_F(ReadObj, ReadsOpacityFromDOrTr) {
