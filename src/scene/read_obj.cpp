@@ -1,5 +1,6 @@
 #include "scene/read_obj.h"
 
+#include "scene/obj_cameras.h"
 #include "scene/obj_materials.h"
 #include "scene/soup.h"
 #include "scene/text_reader.h"
@@ -217,7 +218,9 @@ Scene ObjReader::read() {
 
 Scene read_obj(const std::filesystem::path& path, Monitor& monitor) {
     const std::string text = read_file(path);
-    return ObjReader(path, text, monitor).read();
+    Scene scene = ObjReader(path, text, monitor).read();
+    scene.cameras = read_obj_cameras(scene.path, text, monitor);
+    return scene;
 }
 
 }  // namespace transillum

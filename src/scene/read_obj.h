@@ -8,7 +8,8 @@
 
 namespace transillum {
 
-/// Polygons, texture coordinates, materials, and objects (`o`, or `g` where there is no `o`).
+/// Polygons, texture coordinates, materials, objects (`o`, or `g` where there is no `o`), and
+/// cameras in comments (obj_cameras.h).
 /// Lines, points and free-form geometry are left out with a note; a missing library or material is
 /// replaced by the default material with a warning. \throws InputError naming file and line, or
 /// material; IoError.

@@ -55,6 +55,32 @@ TEST_F(ReadObj, AllowsFacesBeforeTheirVertices) {
     EXPECT_EQ(corners_of(load("x.obj", "f 1 2 3\n" + square), 0)[1], glm::dvec3(1, 0, 0));
 }
 
+TEST_F(ReadObj, TakesCamerasFromComments) {
+    const Scene scene = load(
+        "x.obj", "# camera front 1 2 3  4 5 6  0 1 0 39.5\n# camera settings follow\n" + square +
+                     "# camera of 1 2 3  4 5 6  0 1 0 then 7\nf 1 2 3\n"
+                     "# camera top 0 9 0  0 0 0  0 0 -1 60\r\n");
+    ASSERT_EQ(scene.cameras.size(), 2u);
+    EXPECT_EQ(scene.cameras[0].name, "front");
+    EXPECT_EQ(scene.cameras[0].eye, glm::dvec3(1, 2, 3));
+    EXPECT_EQ(scene.cameras[0].look_at, glm::dvec3(4, 5, 6));
+    EXPECT_EQ(scene.cameras[0].up, glm::dvec3(0, 1, 0));
+    EXPECT_EQ(scene.cameras[0].vertical_fov, 39.5);
+    EXPECT_EQ(scene.cameras[1].name, "top");
+    EXPECT_TRUE(monitor_.warnings.empty());
+}
+
+TEST_F(ReadObj, LeavesOutImpossibleCameras) {
+    for (const std::string numbers :
+         {"0 0 0 0 0 0 0 1 0 45", "0 0 0 0 1 0 0 1 0 45", "0 0 0 1 0 0 0 1 0 180"}) {
+        monitor_.warnings.clear();
+        EXPECT_TRUE(
+            load("x.obj", square + "# camera c " + numbers + "\nf 1 2 3\n").cameras.empty());
+        ASSERT_EQ(monitor_.warnings.size(), 1u) << numbers;
+        EXPECT_NE(monitor_.warnings[0].find("x.obj:5: camera 'c'"), std::string::npos);
+    }
+}
+
 TEST_F(ReadObj, JoinsContinuedLines) {
     for (const std::string end : {"\n", "\r\n"}) {
         const Scene scene = load("x.obj", square + "f 1 2 \\" + end + "3\\" + end + " 4" + end);
