@@ -53,9 +53,9 @@ public:
           earlier_transfer_(clusters_.count),
           exchange_(patches.leaf_count, clusters_, workers),
           component_(sources, workers) {
-        for (std::uint32_t r = 0; r < mesh.triangles.size(); ++r) {
-            leaf_area_.push_back(leaf_area(mesh, patches, r));
-        }
+        leaf_area_.reserve(patches.leaf_count);
+        for (std::uint32_t leaf = 0; leaf < patches.leaf_count; ++leaf)
+            leaf_area_.push_back(area_of_leaf(mesh, patches, leaf));
     }
 
     TransportResult run() {
@@ -171,7 +171,7 @@ private:
     }
 
     double area_of_patch(std::uint32_t patch) const {
-        return leaf_area_[patches_.root_of_leaf[patches_.leaf_of_patch(patch)]];
+        return leaf_area_[patches_.leaf_of_patch(patch)];
     }
 
     bool stopped() {
@@ -222,7 +222,7 @@ private:
     ClusterTransfer transfer_, earlier_transfer_;
     Exchange exchange_;
     FiniteElementComponent component_;
-    std::vector<double> leaf_area_;  ///< one a root
+    std::vector<double> leaf_area_;
     std::uint64_t done_ = 0;
     double relative_error_ = std::numeric_limits<double>::quiet_NaN();
     bool interrupted_ = false;
