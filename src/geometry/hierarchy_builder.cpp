@@ -10,7 +10,8 @@ namespace transillum {
 
 namespace {
 
-constexpr std::uint64_t most_leaves = std::uint64_t{1} << 30;
+/// Of leaves, and of entries of tables.
+constexpr std::uint64_t most = std::uint64_t{1} << 30;
 
 /// Triangle k of row i has this number plus k.
 std::uint32_t start_of_row(int level, int i) {
@@ -71,10 +72,14 @@ void require_level(int level) {
                          std::to_string(max_subdivision_level));
 }
 
-HierarchyBuilder::HierarchyBuilder(std::size_t roots, std::uint64_t leaves) {
-    if (leaves > most_leaves)
+HierarchyBuilder::HierarchyBuilder(std::size_t roots, std::uint64_t leaves, std::uint64_t cells) {
+    if (leaves > most)
         throw UsageError(std::to_string(leaves) +
                          " leaf patches; accepted: at most 2^30; raise the patch size");
+    if (cells > most)
+        throw UsageError("triangles with leaves of several levels: tables of " +
+                         std::to_string(cells) +
+                         " entries; accepted: at most 2^30; lower the deepest level");
     patches_.roots.reserve(roots);
     patches_.root_of_leaf.reserve(leaves);
 }
@@ -88,25 +93,19 @@ void HierarchyBuilder::add_uniform(int level) {
 }
 
 void HierarchyBuilder::add(std::vector<LeafTriangle> leaves) {
-    const auto [least, most] = std::ranges::minmax(leaves, {}, &LeafTriangle::level);
-    if (least.level == most.level) return add_uniform(most.level);
-    require_level(most.level);
-    const std::uint64_t cells = std::uint64_t{1} << (2 * most.level);
-    if (cells_ + cells > most_leaves)
-        throw UsageError("tables of roots with leaves of several levels of over " +
-                         std::to_string(cells_) +
-                         " entries; accepted: at most 2^30; lower the deepest level");
-    cells_ += cells;
+    const auto [highest, deepest] = std::ranges::minmax(leaves, {}, &LeafTriangle::level);
+    const int level = deepest.level;
+    if (highest.level == level) return add_uniform(level);
     const auto root = static_cast<std::uint32_t>(patches_.roots.size());
     patches_.roots.push_back(
-        {patches_.leaf_count, most.level, static_cast<std::int32_t>(patches_.mixed_roots.size())});
+        {patches_.leaf_count, level, static_cast<std::int32_t>(patches_.mixed_roots.size())});
     patches_.leaf_count += static_cast<std::uint32_t>(leaves.size());
     patches_.root_of_leaf.resize(patches_.leaf_count, root);
     MixedRoot& mixed = patches_.mixed_roots.emplace_back();
     mixed.leaves = std::move(leaves);
-    mixed.cells.resize(cells);
+    mixed.cells.resize(cells_of(level));
     for (std::uint32_t k = 0; k < mixed.leaves.size(); ++k)
-        fill_cells(mixed.leaves[k], k, most.level, mixed.cells);
+        fill_cells(mixed.leaves[k], k, level, mixed.cells);
 }
 
 }  // namespace transillum

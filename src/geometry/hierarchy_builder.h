@@ -21,15 +21,20 @@ namespace transillum {
 /// Corners in units of 2^-level, counter-clockwise as the root's.
 [[nodiscard]] std::array<glm::ivec2, 3> corners_of(const LeafTriangle& triangle);
 
+[[nodiscard]] constexpr std::uint64_t cells_of(int level) {
+    return std::uint64_t{1} << (2 * level);
+}
+
 class HierarchyBuilder {
 public:
-    /// \throws UsageError above 2^30 leaves.
-    HierarchyBuilder(std::size_t roots, std::uint64_t leaves);
+    /// \param cells table entries of mixed roots, in all
+    /// \throws UsageError above 2^30 leaves or cells.
+    HierarchyBuilder(std::size_t roots, std::uint64_t leaves, std::uint64_t cells);
 
     /// \throws UsageError unless the level is in [0, max_subdivision_level].
     void add_uniform(int level);
     /// \param leaves of a whole tree, in preorder. Those of one level are added as uniform, so in
-    /// the order of their numbers. \throws UsageError when the tables grow above 2^30 entries.
+    /// the order of their numbers.
     void add(std::vector<LeafTriangle> leaves);
 
     [[nodiscard]] PatchHierarchy take() { return std::move(patches_); }
@@ -37,7 +42,6 @@ public:
 
 private:
     PatchHierarchy patches_;
-    std::uint64_t cells_ = 0;
 };
 
 /// \throws UsageError unless the level is in [0, max_subdivision_level].

@@ -82,9 +82,9 @@ PatchHierarchy subdivide_to_levels(const std::vector<int>& levels) {
     std::uint64_t leaves = 0;
     for (const int level : levels) {
         require_level(level);
-        leaves += std::uint64_t{1} << (2 * level);
+        leaves += cells_of(level);
     }
-    HierarchyBuilder builder(levels.size(), leaves);
+    HierarchyBuilder builder(levels.size(), leaves, 0);
     for (const int level : levels) builder.add_uniform(level);
     return builder.take();
 }

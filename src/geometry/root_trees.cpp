@@ -4,7 +4,6 @@
 #include "geometry/hierarchy_builder.h"
 
 #include <algorithm>
-#include <numeric>
 #include <span>
 #include <string>
 
@@ -50,6 +49,10 @@ private:
     std::vector<LeafTriangle> leaves_;
 };
 
+bool is_uniform(const RootTrees& trees, std::size_t root) {
+    return trees.leaf_counts[root] == cells_of(trees.levels[root]);
+}
+
 }  // namespace
 
 RootTrees trees_of(const PatchHierarchy& patches) {
@@ -69,14 +72,17 @@ PatchHierarchy subdivide_to_trees(const RootTrees& trees) {
     if (trees.leaf_counts.size() != trees.levels.size())
         throw UsageError(std::to_string(trees.leaf_counts.size()) + " numbers of leaves for " +
                          std::to_string(trees.levels.size()) + " roots");
-    for (const int level : trees.levels) require_level(level);
-    HierarchyBuilder builder(
-        trees.levels.size(),
-        std::accumulate(trees.leaf_counts.begin(), trees.leaf_counts.end(), std::uint64_t{0}));
+    std::uint64_t leaves = 0, cells = 0;
+    for (std::size_t root = 0; root < trees.levels.size(); ++root) {
+        require_level(trees.levels[root]);
+        leaves += trees.leaf_counts[root];
+        if (!is_uniform(trees, root)) cells += cells_of(trees.levels[root]);
+    }
+    HierarchyBuilder builder(trees.levels.size(), leaves, cells);
     std::span<const std::uint8_t> left(trees.leaf_levels);
     for (std::uint32_t root = 0; root < trees.levels.size(); ++root) {
         const std::uint32_t count = trees.leaf_counts[root];
-        if (count == 1u << (2 * trees.levels[root])) {
+        if (is_uniform(trees, root)) {
             builder.add_uniform(trees.levels[root]);
             continue;
         }

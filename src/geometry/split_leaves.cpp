@@ -26,10 +26,16 @@ public:
     Splitter(const PatchHierarchy& patches, std::span<const std::uint8_t> split)
         : patches_(patches), split_(split) {}
 
-    [[nodiscard]] bool splits(std::uint32_t root) const {
-        const auto of_root =
-            split_.subspan(patches_.roots[root].first_leaf, patches_.leaves_of(root));
-        return std::ranges::any_of(of_root, [](std::uint8_t s) { return s != 0; });
+    /// Table entries that the root will need.
+    [[nodiscard]] std::uint64_t cells(std::uint32_t root) const {
+        const std::uint32_t first = patches_.roots[root].first_leaf;
+        int highest = max_subdivision_level + 1, deepest = 0;
+        for (std::uint32_t leaf = first; leaf < first + patches_.leaves_of(root); ++leaf) {
+            const int level = patches_.level_of_leaf(leaf) + (split_[leaf] != 0 ? 1 : 0);
+            highest = std::min(highest, level);
+            deepest = std::max(deepest, level);
+        }
+        return highest < deepest ? cells_of(deepest) : 0;
     }
 
     [[nodiscard]] Pieces pieces_of(std::uint32_t root) const {
@@ -75,24 +81,18 @@ SplitPatches split_leaves(const PatchHierarchy& patches, std::span<const std::ui
     const auto splits = static_cast<std::uint64_t>(
         std::ranges::count_if(split, [](std::uint8_t s) { return s != 0; }));
     const std::uint64_t leaves = patches.leaf_count + 3 * splits;
-    HierarchyBuilder builder(patches.roots.size(), leaves);
     const Splitter splitter(patches, split);
+    std::uint64_t cells = 0;
+    for (std::uint32_t root = 0; root < patches.roots.size(); ++root) cells += splitter.cells(root);
+    HierarchyBuilder builder(patches.roots.size(), leaves, cells);
     std::vector<std::uint32_t> parent(leaves);
     for (std::uint32_t root = 0; root < patches.roots.size(); ++root) {
-        const RootPatches& old = patches.roots[root];
-        if (old.mixed == RootPatches::uniform && !splitter.splits(root)) {
-            builder.add_uniform(old.level);
-            for (std::uint32_t k = 0; k < patches.leaves_of(root); ++k)
-                parent[builder.last().first_leaf + k] = old.first_leaf + k;
-            continue;
-        }
-        Pieces pieces = splitter.pieces_of(root);
-        const std::vector<LeafTriangle> triangles = pieces.triangles;
-        builder.add(std::move(pieces.triangles));
+        const Pieces pieces = splitter.pieces_of(root);
+        builder.add(pieces.triangles);
         const RootPatches& made = builder.last();
-        for (std::uint32_t k = 0; k < triangles.size(); ++k) {
+        for (std::uint32_t k = 0; k < pieces.triangles.size(); ++k) {
             const std::uint32_t place =
-                made.mixed == RootPatches::uniform ? number_of(triangles[k]) : k;
+                made.mixed == RootPatches::uniform ? number_of(pieces.triangles[k]) : k;
             parent[made.first_leaf + place] = pieces.parents[k];
         }
     }

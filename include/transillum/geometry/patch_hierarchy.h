@@ -38,8 +38,8 @@ inline constexpr int max_subdivision_level = 11;
     return static_cast<std::uint32_t>(i * (2 * (1 << level) - i) + column + (diagonal - i));
 }
 
-/// A triangle of the subdivision: at its level, row i along b1 and place j within it, both in units
-/// of 2^-level; upright ones have their right angle at (i, j), turned ones opposite.
+/// A half of a square of the subdivision that begins at (b1, b2) = (i, j) * 2^-level: the upright
+/// one, which has a corner there, or the turned one, which has one opposite.
 struct LeafTriangle {
     std::uint16_t i = 0, j = 0;
     std::uint8_t level = 0;
@@ -48,12 +48,12 @@ struct LeafTriangle {
     bool operator==(const LeafTriangle&) const = default;
 };
 
-/// What a root needs whose leaves differ in level: 4 * 4^level bytes, of its smallest leaves'
-/// level, and 6 a leaf.
+/// What a root needs whose leaves differ in level: 4 bytes * 4^level of its smallest leaves, and 6
+/// bytes a leaf.
 struct MixedRoot {
     /// Leaf, counted from the root's first, by leaf_in_root() of the smallest leaves' level.
     std::vector<std::uint32_t> cells;
-    /// In preorder; children are ordered: at the first, second, third corner, the middle.
+    /// In preorder. The children of a triangle: at its first, second and third corner, the middle.
     std::vector<LeafTriangle> leaves;
 
     bool operator==(const MixedRoot&) const = default;
@@ -108,8 +108,9 @@ struct PatchHierarchy {
 
 /// Integer barycentric coordinates (b1, b2) in units of 2^-level of the root.
 struct LeafCorners {
-    std::array<glm::ivec2, 3> b;  ///< counter-clockwise as the root's
-    int level = 0;                ///< of the leaf
+    /// Counter-clockwise as the root's, from the least b2 and, of these, the least b1.
+    std::array<glm::ivec2, 3> b;
+    int level = 0;  ///< of the leaf
 };
 [[nodiscard]] LeafCorners leaf_corners(const PatchHierarchy& patches, std::uint32_t leaf);
 
