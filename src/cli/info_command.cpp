@@ -23,8 +23,7 @@ Json mean_irradiance(const Solution& s, const std::vector<Spectrum>& irradiance)
     double area = 0.0;
     for (std::uint32_t p = 0; p < s.patches.patch_count(); ++p) {
         if (!s.reflects(p) || s.coverage[p] == 0.0f) continue;
-        const double a =
-            leaf_area(s.surface, s.patches, s.patches.root_of_leaf[s.patches.leaf_of_patch(p)]);
+        const double a = area_of_leaf(s.surface, s.patches, s.patches.leaf_of_patch(p));
         sum += a * SpectrumSum(irradiance[p]);
         area += a;
     }

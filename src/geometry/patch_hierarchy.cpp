@@ -1,6 +1,8 @@
 #include <transillum/base/error.h>
 #include <transillum/geometry/patch_hierarchy.h>
 
+#include "geometry/hierarchy_builder.h"
+
 #include <glm/geometric.hpp>
 
 #include <cmath>
@@ -46,18 +48,13 @@ double size_for_count(const std::vector<double>& edges, double target, int max_l
 
 }  // namespace
 
-std::array<glm::ivec2, 3> leaf_corners(const PatchHierarchy& patches, std::uint32_t leaf) {
-    const RootPatches& root = patches.roots[patches.root_of_leaf[leaf]];
-    const int n = 1 << root.level;
-    int k = static_cast<int>(leaf - root.first_leaf);
-    // Row i starts at i (2 n - i): invert, then mend the square root's rounding.
-    int i = n - static_cast<int>(std::sqrt(static_cast<double>(n) * n - k));
-    while (i > 0 && i * (2 * n - i) > k) --i;
-    while ((i + 1) * (2 * n - i - 1) <= k) ++i;
-    k -= i * (2 * n - i);
-    const int j = k / 2;
-    if (k % 2 == 0) return {glm::ivec2(i, j), glm::ivec2(i + 1, j), glm::ivec2(i, j + 1)};
-    return {glm::ivec2(i + 1, j), glm::ivec2(i + 1, j + 1), glm::ivec2(i, j + 1)};
+LeafCorners leaf_corners(const PatchHierarchy& patches, std::uint32_t leaf) {
+    const RootPatches& r = patches.roots[patches.root_of_leaf[leaf]];
+    const std::uint32_t k = leaf - r.first_leaf;
+    const LeafTriangle triangle = r.mixed == RootPatches::uniform
+                                      ? triangle_of(r.level, k)
+                                      : patches.mixed_roots[r.mixed].leaves[k];
+    return {corners_of(triangle), triangle.level};
 }
 
 glm::dvec3 point_of_root(const SurfaceMesh& mesh, std::uint32_t root, glm::ivec2 b, int level) {
@@ -68,38 +65,34 @@ glm::dvec3 point_of_root(const SurfaceMesh& mesh, std::uint32_t root, glm::ivec2
     return sum / n;
 }
 
-double leaf_area(const SurfaceMesh& mesh, const PatchHierarchy& patches, std::uint32_t root) {
-    return std::ldexp(area_of(mesh, root), -2 * patches.roots[root].level);
+std::array<glm::dvec3, 3> points_of_leaf(const SurfaceMesh& mesh, const PatchHierarchy& patches,
+                                         std::uint32_t leaf) {
+    const LeafCorners corners = leaf_corners(patches, leaf);
+    std::array<glm::dvec3, 3> points;
+    for (int i = 0; i < 3; ++i)
+        points[i] = point_of_root(mesh, patches.root_of_leaf[leaf], corners.b[i], corners.level);
+    return points;
+}
+
+double area_of_leaf(const SurfaceMesh& mesh, const PatchHierarchy& patches, std::uint32_t leaf) {
+    return std::ldexp(area_of(mesh, patches.root_of_leaf[leaf]), -2 * patches.level_of_leaf(leaf));
 }
 
 PatchHierarchy subdivide_to_levels(const std::vector<int>& levels) {
-    PatchHierarchy patches;
     std::uint64_t leaves = 0;
     for (const int level : levels) {
-        if (level < 0 || level > max_subdivision_level)
-            throw UsageError("subdivision level " + std::to_string(level) + "; accepted: 0 to " +
-                             std::to_string(max_subdivision_level));
-        leaves += std::uint64_t{1} << (2 * level);
+        require_level(level);
+        leaves += cells_of(level);
     }
-    if (leaves > (std::uint64_t{1} << 30))
-        throw UsageError(std::to_string(leaves) +
-                         " leaf patches; accepted: at most 2^30; raise the patch size");
-    patches.root_of_leaf.reserve(leaves);
-    for (std::uint32_t r = 0; r < levels.size(); ++r) {
-        patches.roots.push_back({patches.leaf_count, levels[r]});
-        patches.leaf_count += 1u << (2 * levels[r]);
-        patches.root_of_leaf.resize(patches.leaf_count, r);
-    }
-    return patches;
+    HierarchyBuilder builder(levels.size(), leaves, 0);
+    for (const int level : levels) builder.add_uniform(level);
+    return builder.take();
 }
 
 glm::dvec3 leaf_centre(const SurfaceMesh& mesh, const PatchHierarchy& patches,
                        std::uint32_t leaf) {
-    const std::uint32_t root = patches.root_of_leaf[leaf];
-    glm::dvec3 sum(0.0);
-    for (const glm::ivec2 corner : leaf_corners(patches, leaf))
-        sum += point_of_root(mesh, root, corner, patches.roots[root].level);
-    return sum / 3.0;
+    const auto [a, b, c] = points_of_leaf(mesh, patches, leaf);
+    return (a + b + c) / 3.0;
 }
 
 PatchHierarchy subdivide_uniformly(const SurfaceMesh& mesh, const SubdivisionOptions& options) {

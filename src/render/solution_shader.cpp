@@ -11,17 +11,16 @@ constexpr float inv_pi = std::numbers::inv_pi_v<float>;
 std::vector<float> patch_areas(const Solution& solution) {
     std::vector<float> areas(solution.patches.patch_count());
     for (std::uint32_t patch = 0; patch < areas.size(); ++patch) {
-        const std::uint32_t root =
-            solution.patches.root_of_leaf[solution.patches.leaf_of_patch(patch)];
-        areas[patch] = static_cast<float>(leaf_area(solution.surface, solution.patches, root));
+        const std::uint32_t leaf = solution.patches.leaf_of_patch(patch);
+        areas[patch] = static_cast<float>(area_of_leaf(solution.surface, solution.patches, leaf));
     }
     return areas;
 }
 
 /// Barycentric coordinates within a leaf from those within its root.
 glm::vec3 within_leaf(const PatchHierarchy& patches, std::uint32_t leaf, const Hit& hit) {
-    const auto corners = leaf_corners(patches, leaf);
-    const auto n = static_cast<float>(1 << patches.roots[hit.root].level);
+    const auto [corners, level] = leaf_corners(patches, leaf);
+    const auto n = static_cast<float>(1 << level);
     const glm::vec2 p = glm::vec2(hit.b1, hit.b2) * n - glm::vec2(corners[0]);
     const glm::vec2 u(corners[1] - corners[0]), v(corners[2] - corners[0]);
     const float whole = u.x * v.y - u.y * v.x;

@@ -5,7 +5,9 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <optional>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 
 namespace transillum {
@@ -13,14 +15,15 @@ namespace transillum {
 namespace {
 
 constexpr std::uint32_t unknown = 0xffffffffu;
-constexpr std::uint32_t edge_units = 1u << max_subdivision_level;
+/// Ends and middles of all edges of leaves along a root's edge lie at whole units.
+constexpr std::uint32_t edge_units = 2u << max_subdivision_level;
 
 /// An edge of a root, named by the fans at its ends: no other smooth edge joins these two.
 struct EdgeKey {
     std::uint32_t low, high;
     bool operator==(const EdgeKey&) const = default;
 };
-/// A place on an edge, in units of 2^-max_subdivision_level from its lower fan.
+/// A place on an edge, in units of 1 / edge_units from its lower fan.
 struct PlaceKey {
     EdgeKey edge;
     std::uint32_t place;
@@ -33,25 +36,33 @@ struct KeyHash {
     std::size_t operator()(const PlaceKey& k) const { return hash_bits((*this)(k.edge) ^ k.place); }
 };
 
+/// A vertex within the edge of a leaf.
+struct Candidate {
+    int level;  ///< of that leaf
+    VertexGrid::Hanging hanging;
+};
+
 class GridBuilder {
 public:
     GridBuilder(const SurfaceMesh& mesh, const PatchHierarchy& patches)
-        : mesh_(mesh), patches_(patches) {
-        fan_vertices_.assign(mesh.fan_count, unknown);
-        for (std::uint32_t root = 0; root < mesh.triangles.size(); ++root) find_coarsest(root);
-    }
+        : mesh_(mesh), patches_(patches), fan_vertices_(mesh.fan_count, unknown) {}
 
     VertexGrid build() {
         grid_.leaf_vertices.resize(patches_.leaf_count);
         grid_.leaf_centres.resize(patches_.leaf_count);
         grid_.leaf_normals.resize(patches_.leaf_count);
-        for (std::uint32_t root = 0; root < mesh_.triangles.size(); ++root) number_root(root);
-        for (const auto& [key, vertex] : hanging_) hang(key, vertex);
+        for (std::uint32_t root = 0; root < mesh_.triangles.size(); ++root) {
+            number_root(root);
+            if (patches_.roots[root].mixed != RootPatches::uniform) hang_within(root);
+        }
+        for (const auto& [place, vertex] : edge_vertices_in_order_) hang_on_edge(place, vertex);
+        collect_hanging();
         collect_touching();
         return std::move(grid_);
     }
 
 private:
+    /// First to second corner, second to third, first to third.
     static constexpr std::array<std::pair<int, int>, 3> edge_ends{{{0, 1}, {1, 2}, {0, 2}}};
 
     [[nodiscard]] EdgeKey edge_of(std::uint32_t root, int edge) const {
@@ -60,12 +71,22 @@ private:
         return {std::min(fans[a], fans[b]), std::max(fans[a], fans[b])};
     }
 
-    void find_coarsest(std::uint32_t root) {
-        for (int edge = 0; edge < 3; ++edge) {
-            const int level = patches_.roots[root].level;
-            int& coarsest = coarsest_.try_emplace(edge_of(root, edge), level).first->second;
-            coarsest = std::min(coarsest, level);
-        }
+    /// The edge of the root that a point lies on, in units of 2^-level, and at which step.
+    struct OnEdge {
+        int edge, step;
+    };
+    [[nodiscard]] static std::optional<OnEdge> find_edge(glm::ivec2 b, int level) {
+        if (b.y == 0) return OnEdge{0, b.x};
+        if (b.x + b.y == 1 << level) return OnEdge{1, b.y};
+        if (b.x == 0) return OnEdge{2, b.y};
+        return std::nullopt;
+    }
+
+    [[nodiscard]] PlaceKey place_of(std::uint32_t root, const OnEdge& at, int level) const {
+        const EdgeKey key = edge_of(root, at.edge);
+        const std::uint32_t place = static_cast<std::uint32_t>(at.step) * (edge_units >> level);
+        const bool forwards = mesh_.triangles[root].fans[edge_ends[at.edge].first] == key.low;
+        return {key, forwards ? place : edge_units - place};
     }
 
     std::uint32_t add(const glm::dvec3& position) {
@@ -75,68 +96,103 @@ private:
 
     void number_root(std::uint32_t root) {
         const RootPatches& r = patches_.roots[root];
-        const int n = 1 << r.level;
-        std::vector<std::uint32_t> numbers(static_cast<std::size_t>(n + 1) * (n + 1), unknown);
-        for (std::uint32_t leaf = r.first_leaf; leaf < r.first_leaf + (1u << (2 * r.level));
+        lattice_.assign(lattice_size(r.level), unknown);
+        for (std::uint32_t leaf = r.first_leaf; leaf < r.first_leaf + patches_.leaves_of(root);
              ++leaf) {
-            const auto corners = leaf_corners(patches_, leaf);
+            const auto [corners, level] = leaf_corners(patches_, leaf);
             for (int c = 0; c < 3; ++c) {
                 std::uint32_t& number =
-                    numbers[static_cast<std::size_t>(corners[c].y) * (n + 1) + corners[c].x];
-                if (number == unknown) number = vertex_at(root, corners[c]);
+                    lattice_[lattice_number(r.level, corners[c] * (1 << (r.level - level)))];
+                if (number == unknown) number = vertex_at(root, corners[c], level);
                 grid_.leaf_vertices[leaf][c] = number;
                 grid_.leaf_centres[leaf] += grid_.positions[number] / 3.0;
+                note_edge(root, corners[c] + corners[(c + 1) % 3], level + 1);
             }
             grid_.leaf_normals[leaf] = normal_of(mesh_, root);
         }
     }
 
-    std::uint32_t vertex_at(std::uint32_t root, glm::ivec2 b) {
-        const int n = 1 << patches_.roots[root].level;
+    /// An edge of a leaf, by its middle, if it lies on the root's.
+    void note_edge(std::uint32_t root, glm::ivec2 middle, int level) {
+        if (const auto at = find_edge(middle, level)) middles_.insert(place_of(root, *at, level));
+    }
+
+    std::uint32_t vertex_at(std::uint32_t root, glm::ivec2 b, int level) {
+        const int n = 1 << level;
         const auto& fans = mesh_.triangles[root].fans;
-        if (b == glm::ivec2(0, 0)) return corner(fans[0], root, b);
-        if (b == glm::ivec2(n, 0)) return corner(fans[1], root, b);
-        if (b == glm::ivec2(0, n)) return corner(fans[2], root, b);
-        if (b.y == 0) return on_edge(root, 0, b.x, b);
-        if (b.x + b.y == n) return on_edge(root, 1, b.y, b);
-        if (b.x == 0) return on_edge(root, 2, b.y, b);
-        return add(point_of_root(mesh_, root, b, patches_.roots[root].level));
-    }
-
-    std::uint32_t corner(std::uint32_t fan, std::uint32_t root, glm::ivec2 b) {
-        if (fan_vertices_[fan] == unknown)
-            fan_vertices_[fan] = add(point_of_root(mesh_, root, b, patches_.roots[root].level));
-        return fan_vertices_[fan];
-    }
-
-    std::uint32_t on_edge(std::uint32_t root, int edge, int steps, glm::ivec2 b) {
-        const int level = patches_.roots[root].level;
-        const EdgeKey key = edge_of(root, edge);
-        std::uint32_t place = static_cast<std::uint32_t>(steps) << (max_subdivision_level - level);
-        if (mesh_.triangles[root].fans[edge_ends[edge].first] != key.low)
-            place = edge_units - place;
-        const auto [found, added] = edge_vertices_.try_emplace({key, place}, 0);
+        if (b == glm::ivec2(0, 0)) return corner(fans[0], root, b, level);
+        if (b == glm::ivec2(n, 0)) return corner(fans[1], root, b, level);
+        if (b == glm::ivec2(0, n)) return corner(fans[2], root, b, level);
+        const auto at = find_edge(b, level);
+        if (!at) return add(point_of_root(mesh_, root, b, level));
+        const auto [found, added] = edge_vertices_.try_emplace(place_of(root, *at, level), 0);
         if (added) {
             found->second = add(point_of_root(mesh_, root, b, level));
-            if (place % coarse_step(key) != 0) hanging_.push_back({{key, place}, found->second});
+            edge_vertices_in_order_.emplace_back(found->first, found->second);
         }
         return found->second;
     }
 
-    [[nodiscard]] std::uint32_t coarse_step(const EdgeKey& key) const {
-        return edge_units >> coarsest_.at(key);
+    std::uint32_t corner(std::uint32_t fan, std::uint32_t root, glm::ivec2 b, int level) {
+        if (fan_vertices_[fan] == unknown)
+            fan_vertices_[fan] = add(point_of_root(mesh_, root, b, level));
+        return fan_vertices_[fan];
     }
+
+    /// Vertices within the edges of the root just numbered.
+    void hang_within(std::uint32_t root) {
+        const RootPatches& r = patches_.roots[root];
+        for (std::uint32_t leaf = r.first_leaf; leaf < r.first_leaf + patches_.leaves_of(root);
+             ++leaf) {
+            const auto [corners, level] = leaf_corners(patches_, leaf);
+            const int steps = 1 << (r.level - level);
+            for (int c = 0; c < 3; ++c) {
+                const glm::ivec2 from = corners[c], to = corners[(c + 1) % 3];
+                if (find_edge(from + to, level + 1)) continue;
+                for (int step = 1; step < steps; ++step) {
+                    const std::uint32_t vertex =
+                        lattice_[lattice_number(r.level, from * steps + (to - from) * step)];
+                    if (vertex == unknown) continue;
+                    const auto& ends = grid_.leaf_vertices[leaf];
+                    candidates_.push_back({level,
+                                           {vertex, ends[c], ends[(c + 1) % 3],
+                                            static_cast<float>(step) / static_cast<float>(steps)}});
+                }
+            }
+        }
+    }
+
+    /// Within the longest edge of a leaf on either side.
+    void hang_on_edge(const PlaceKey& key, std::uint32_t vertex) {
+        for (int level = 0;; ++level) {
+            const std::uint32_t length = edge_units >> level, rest = key.place % length;
+            if (rest == 0) return;
+            const std::uint32_t start = key.place - rest;
+            if (!middles_.contains({key.edge, start + length / 2})) continue;
+            candidates_.push_back(
+                {level,
+                 {vertex, known_vertex({key.edge, start}), known_vertex({key.edge, start + length}),
+                  static_cast<float>(rest) / static_cast<float>(length)}});
+            return;
+        }
+    }
+
     [[nodiscard]] std::uint32_t known_vertex(const PlaceKey& key) const {
         if (key.place == 0) return fan_vertices_[key.edge.low];
         if (key.place == edge_units) return fan_vertices_[key.edge.high];
         return edge_vertices_.at(key);
     }
 
-    void hang(const PlaceKey& key, std::uint32_t vertex) {
-        const std::uint32_t step = coarse_step(key.edge), rest = key.place % step;
-        grid_.hanging.push_back({vertex, known_vertex({key.edge, key.place - rest}),
-                                 known_vertex({key.edge, key.place - rest + step}),
-                                 static_cast<float>(rest) / static_cast<float>(step)});
+    /// Edges that hold a vertex lie one within the other. An end of the longest hangs, if at all,
+    /// on a longer one of another line: of a smaller level.
+    void collect_hanging() {
+        std::ranges::stable_sort(candidates_, {}, &Candidate::level);
+        std::vector<bool> hangs(grid_.vertex_count());
+        for (const Candidate& c : candidates_) {
+            if (hangs[c.hanging.vertex]) continue;
+            hangs[c.hanging.vertex] = true;
+            grid_.hanging.push_back(c.hanging);
+        }
     }
 
     void collect_touching() {
@@ -157,9 +213,11 @@ private:
     const PatchHierarchy& patches_;
     VertexGrid grid_;
     std::vector<std::uint32_t> fan_vertices_;
-    std::unordered_map<EdgeKey, int, KeyHash> coarsest_;
+    std::vector<std::uint32_t> lattice_;  ///< vertices of the root being numbered
     std::unordered_map<PlaceKey, std::uint32_t, KeyHash> edge_vertices_;
-    std::vector<std::pair<PlaceKey, std::uint32_t>> hanging_;
+    std::vector<std::pair<PlaceKey, std::uint32_t>> edge_vertices_in_order_;
+    std::unordered_set<PlaceKey, KeyHash> middles_;  ///< of edges of leaves on roots' edges
+    std::vector<Candidate> candidates_;
 };
 
 }  // namespace

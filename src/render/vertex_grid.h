@@ -13,8 +13,8 @@
 namespace transillum {
 
 struct VertexGrid {
-    /// A vertex on the edge of a root whose neighbour across is coarser: it lies between two of the
-    /// neighbour's, and takes its value from them, so that no seam shows.
+    /// A vertex within the edge of a larger leaf, of its root or across: it takes its value from
+    /// the ends of the longest such edge, so that no seam shows.
     struct Hanging {
         std::uint32_t vertex, from, to;
         float share;  ///< of the way from `from` to `to`
@@ -22,7 +22,7 @@ struct VertexGrid {
 
     std::vector<std::array<std::uint32_t, 3>> leaf_vertices;  ///< as leaf_corners
     std::vector<glm::dvec3> positions;                        ///< one a vertex
-    std::vector<Hanging> hanging;
+    std::vector<Hanging> hanging;  ///< those that hang on others come after them
     std::vector<std::uint32_t> first_touching;  ///< one a vertex, and the end
     std::vector<std::uint32_t> touching;        ///< leaves, vertex by vertex
     std::vector<glm::dvec3> leaf_centres;

@@ -49,10 +49,10 @@ void require_light(const Scene& scene, const SurfaceMesh& mesh) {
 /// So many pixels that an average leaf (by area) is three wide.
 double automatic_pixel_size(const SurfaceMesh& mesh, const PatchHierarchy& patches) {
     double area = 0.0, weighted_edge = 0.0;
-    for (std::uint32_t r = 0; r < mesh.triangles.size(); ++r) {
-        const double a = area_of(mesh, r);
+    for (std::uint32_t leaf = 0; leaf < patches.leaf_count; ++leaf) {
+        const double a = area_of_leaf(mesh, patches, leaf);
         area += a;
-        weighted_edge += a * std::sqrt(2.0 * leaf_area(mesh, patches, r));
+        weighted_edge += a * std::sqrt(2.0 * a);
     }
     const double wanted = weighted_edge / area / pixels_a_leaf_edge;
     return std::clamp(wanted, pixel_size_for(mesh, largest_resolution),
@@ -112,8 +112,7 @@ EnergyBalance measure_balance(const Solution& s, const TransportResult& transpor
     for (const LightSample& l : s.direct.samples)
         shot += SpectrumSum(l.radiance) * (std::numbers::pi * l.area);
     for (std::uint32_t p = 0; p < s.patches.patch_count(); ++p) {
-        const double area =
-            leaf_area(s.surface, s.patches, s.patches.root_of_leaf[s.patches.leaf_of_patch(p)]);
+        const double area = area_of_leaf(s.surface, s.patches, s.patches.leaf_of_patch(p));
         const SpectrumSum direct = area * SpectrumSum(s.direct_irradiance[p]);
         const SpectrumSum flux = direct + area * SpectrumSum(s.indirect_irradiance[p]);
         arrived += direct;

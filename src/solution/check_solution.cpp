@@ -1,5 +1,8 @@
 #include "check_solution.h"
 
+#include <transillum/base/error.h>
+#include <transillum/geometry/root_trees.h>
+
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -109,21 +112,33 @@ void check_surface(const SurfaceMesh& mesh) {
     check_number(mesh.grid.largest_move, 0.0, infinity, "grid: largest move");
 }
 
+/// The tables of the trees are as their leaves' levels make them.
+void check_trees(const PatchHierarchy& patches) try {
+    if (subdivide_to_trees(trees_of(patches)) != patches)
+        throw Defect("subdivision: the tables of its trees contradict each other");
+} catch (const UsageError& error) {
+    throw Defect(std::string("subdivision: ") + error.what());
+}
+
 void check_hierarchy(const PatchHierarchy& patches, std::size_t roots) {
     check_count(patches.roots.size(), roots, "subdivided roots");
     check_count(patches.root_of_leaf.size(), patches.leaf_count, "roots of leaves");
     std::uint64_t leaf = 0;
-    for (std::size_t i = 0; i < roots; ++i) {
-        const auto [first, level] = patches.roots[i];
+    for (std::uint32_t i = 0; i < roots; ++i) {
+        const auto [first, level, mixed] = patches.roots[i];
         check_number(level, 0, max_subdivision_level, Place("root", i, "level"));
         check_count(first, leaf, Place("root", i, "first leaf"));
-        leaf += std::uint64_t{1} << (2 * level);
+        if (mixed != RootPatches::uniform)
+            check_index(static_cast<std::uint32_t>(mixed), patches.mixed_roots.size(),
+                        Place("root", i, "tree"));
+        leaf += patches.leaves_of(i);
         check_index(leaf - 1, patches.leaf_count, Place("root", i, "last leaf"));
         for (std::uint64_t k = first; k < leaf; ++k) {
             check_count(patches.root_of_leaf[k], i, Place("root of leaf", k));
         }
     }
     check_count(patches.leaf_count, leaf, "leaves");
+    if (!patches.mixed_roots.empty()) check_trees(patches);
 }
 
 void check_table(const std::vector<float>& values, std::size_t count, double most,

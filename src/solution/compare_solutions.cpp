@@ -17,12 +17,15 @@ SolutionDifference compare_solutions(const Solution& a, const Solution& b) {
     if (a.patches.patch_count() != b.patches.patch_count())
         throw InputError("compare", fmt::format("{} and {} patches; accepted: the same subdivision",
                                                 a.patches.patch_count(), b.patches.patch_count()));
+    if (a.patches != b.patches)
+        throw InputError("compare",
+                         "as many patches, but other ones; accepted: the same "
+                         "subdivision");
     SolutionDifference result;
     double area = 0.0, mean_a = 0.0, mean_b = 0.0, square = 0.0, largest = 0.0;
     for (std::uint32_t p = 0; p < a.patches.patch_count(); ++p) {
         if (!a.reflects(p) || (a.coverage[p] == 0.0f && b.coverage[p] == 0.0f)) continue;
-        const double w =
-            leaf_area(a.surface, a.patches, a.patches.root_of_leaf[a.patches.leaf_of_patch(p)]);
+        const double w = area_of_leaf(a.surface, a.patches, a.patches.leaf_of_patch(p));
         const double x =
             luminance(SpectrumSum(a.direct_irradiance[p]) + SpectrumSum(a.indirect_irradiance[p]));
         const double y =

@@ -83,9 +83,9 @@ void check_format(const std::string& text, const std::filesystem::path& path) {
                                             std::string(format_attribute) +
                                             "; a .vtm of another program?)");
     }
-    if (number_or_zero<int>(format) > solution_format_version) {
+    if (number_or_zero<int>(format) != solution_format_version) {
         throw InputError(path.string(), "written by format " + *format +
-                                            ", this program reads up to " +
+                                            ", this program reads format " +
                                             std::to_string(solution_format_version));
     }
 }

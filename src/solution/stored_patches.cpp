@@ -29,38 +29,45 @@ bool stores_side(const Solution& solution, std::uint32_t first, std::uint32_t co
     return false;
 }
 
-std::uint32_t leaves_of(const RootPatches& root) {
-    return 1u << (2 * root.level);
-}
+/// Numbers the points that the leaves of a root's side share, as they come.
+class SidePoints {
+public:
+    SidePoints(const Solution& solution, vtkPoints& points)
+        : solution_(solution), points_(points) {}
 
-/// The triangular lattice of a root's leaf corners, row by row along b1.
-struct Lattice {
-    int level;
-    [[nodiscard]] int side() const { return 1 << level; }
-    [[nodiscard]] vtkIdType number(glm::ivec2 b) const {
-        return vtkIdType{b.x} * (side() + 1) - vtkIdType{b.x} * (b.x - 1) / 2 + b.y;
+    void begin(std::uint32_t root) {
+        root_ = root;
+        level_ = solution_.patches.roots[root].level;
+        numbers_.assign(lattice_size(level_), -1);
     }
-};
-
-void insert_points(const SurfaceMesh& mesh, std::uint32_t root, int level, vtkPoints& points) {
-    const int side = Lattice{level}.side();
-    for (int i = 0; i <= side; ++i) {
-        for (int j = 0; i + j <= side; ++j) {
-            const glm::dvec3 p = point_of_root(mesh, root, {i, j}, level);
-            points.InsertNextPoint(p.x, p.y, p.z);
+    /// \param b in units of 2^-level of the root
+    [[nodiscard]] vtkIdType number(glm::ivec2 b, int level) {
+        vtkIdType& number = numbers_[lattice_number(level_, b * (1 << (level_ - level)))];
+        if (number < 0) {
+            const glm::dvec3 p = point_of_root(solution_.surface, root_, b, level);
+            number = points_.InsertNextPoint(p.x, p.y, p.z);
         }
+        return number;
     }
-}
+
+private:
+    const Solution& solution_;
+    vtkPoints& points_;
+    std::uint32_t root_ = 0;
+    int level_ = 0;
+    std::vector<vtkIdType> numbers_;  ///< of the lattice's points; -1: none yet
+};
 
 }  // namespace
 
 std::vector<std::uint32_t> stored_patches(const Solution& solution) {
     std::vector<std::uint32_t> stored;
     for (const std::uint32_t side_offset : {0u, solution.patches.leaf_count}) {
-        for (const RootPatches& root : solution.patches.roots) {
-            const std::uint32_t first = side_offset + root.first_leaf;
-            if (!stores_side(solution, first, leaves_of(root))) continue;
-            for (std::uint32_t i = 0; i < leaves_of(root); ++i) stored.push_back(first + i);
+        for (std::uint32_t root = 0; root < solution.patches.roots.size(); ++root) {
+            const std::uint32_t first = side_offset + solution.patches.roots[root].first_leaf;
+            const std::uint32_t count = solution.patches.leaves_of(root);
+            if (!stores_side(solution, first, count)) continue;
+            for (std::uint32_t i = 0; i < count; ++i) stored.push_back(first + i);
         }
     }
     return stored;
@@ -77,20 +84,15 @@ vtkSmartPointer<vtkPolyData> patch_cells(const Solution& solution,
     const auto count = static_cast<vtkIdType>(stored.size());
     triangles->AllocateExact(count, 3 * count);
 
-    vtkIdType first_point = 0;
+    SidePoints side(solution, *points);
     for (const std::uint32_t patch : stored) {
         const std::uint32_t leaf = patches.leaf_of_patch(patch);
         const std::uint32_t root = patches.root_of_leaf[leaf];
-        const Lattice lattice{patches.roots[root].level};
-        if (leaf == patches.roots[root].first_leaf) {
-            first_point = points->GetNumberOfPoints();
-            insert_points(solution.surface, root, lattice.level, *points);
-        }
+        if (leaf == patches.roots[root].first_leaf) side.begin(root);
         std::array<vtkIdType, 3> corners{};
-        const auto barycentric = leaf_corners(patches, leaf);
-        for (std::size_t i = 0; i < 3; ++i) {
-            corners[i] = first_point + lattice.number(barycentric[i]);
-        }
+        const LeafCorners barycentric = leaf_corners(patches, leaf);
+        for (std::size_t i = 0; i < 3; ++i)
+            corners[i] = side.number(barycentric.b[i], barycentric.level);
         if (patches.is_back(patch)) std::swap(corners[1], corners[2]);
         triangles->InsertNextCell(3, corners.data());
     }
@@ -125,13 +127,13 @@ std::vector<std::uint32_t> read_patches(vtkPolyData& cells, const PatchHierarchy
             throw InputError(file.string(), cell + ": root " + std::to_string(roots[i]) + " of " +
                                                 std::to_string(patches.roots.size()));
         }
-        const RootPatches& root = patches.roots[roots[i]];
-        stored[i] = root.first_leaf + leaves[i] + (sides[i] ? patches.leaf_count : 0u);
-        const bool begins = i == 0 || leaves[i - 1] + 1 == leaves_of(patches.roots[roots[i - 1]]);
+        stored[i] =
+            patches.roots[roots[i]].first_leaf + leaves[i] + (sides[i] ? patches.leaf_count : 0u);
+        const bool begins = i == 0 || leaves[i - 1] + 1 == patches.leaves_of(roots[i - 1]);
         const bool in_order = begins ? leaves[i] == 0 && (i == 0 || stored[i] > stored[i - 1])
                                      : stored[i] == stored[i - 1] + 1;
-        const bool whole = i + 1 < count || leaves[i] + 1 == leaves_of(root);
-        if (leaves[i] >= leaves_of(root) || !in_order || !whole) {
+        const bool whole = i + 1 < count || leaves[i] + 1 == patches.leaves_of(roots[i]);
+        if (leaves[i] >= patches.leaves_of(roots[i]) || !in_order || !whole) {
             throw InputError(file.string(), cell + ": patches out of order or missing");
         }
     }

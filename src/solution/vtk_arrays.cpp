@@ -59,6 +59,10 @@ void ArrayReader::check_shape(vtkAbstractArray& array, int type, std::size_t tup
                          shape(wanted, components, vtkImageScalarTypeNameMacro(type)));
 }
 
+std::size_t ArrayReader::count_of(const char* name) const {
+    return static_cast<std::size_t>(find_array(name).GetNumberOfTuples());
+}
+
 std::vector<std::uint8_t> ArrayReader::read_flags(const char* name, std::size_t count) const {
     auto flags = read<std::uint8_t>(name, count);
     for (const std::uint8_t flag : flags) {

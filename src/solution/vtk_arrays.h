@@ -76,6 +76,12 @@ struct ArrayReader {
         return values;
     }
 
+    /// As many as there are.
+    template <class Value>
+    [[nodiscard]] std::vector<Value> read(const char* name) const {
+        return read<Value>(name, count_of(name));
+    }
+
     template <class Value>
     [[nodiscard]] Value read_value(const char* name) const {
         return read<Value>(name, 1)[0];
@@ -96,6 +102,7 @@ struct ArrayReader {
 
 private:
     [[nodiscard]] vtkAbstractArray& find_array(const char* name) const;
+    [[nodiscard]] std::size_t count_of(const char* name) const;
     void check_shape(vtkAbstractArray& array, int type, std::size_t tuples, int components) const;
 };
 

@@ -101,9 +101,10 @@ Clusters make_clusters(const SurfaceMesh& mesh, const PatchHierarchy& patches) {
                       std::vector<std::uint8_t>(patches.patch_count() + 1)};
     for (std::uint32_t g = 0; g < groups.size(); ++g)
         for (const RootSide& s : groups[g].members) {
-            const RootPatches& root = patches.roots[s.id / 2];
-            const std::uint32_t first = root.first_leaf + (s.id % 2 ? patches.leaf_count : 0);
-            std::fill_n(clusters.of_patch.begin() + first, std::size_t{1} << (2 * root.level),
+            const std::uint32_t root = s.id / 2;
+            const std::uint32_t first =
+                patches.roots[root].first_leaf + (s.id % 2 ? patches.leaf_count : 0);
+            std::fill_n(clusters.of_patch.begin() + first, patches.leaves_of(root),
                         static_cast<std::uint8_t>(g));
         }
     clusters.of_patch.back() = static_cast<std::uint8_t>(clusters.count);

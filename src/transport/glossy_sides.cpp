@@ -69,9 +69,7 @@ GlossySides lay_out_glossy_sides(const SurfaceMesh& mesh, const PatchHierarchy& 
             if (is_new) glossy.projections.emplace_back(glossy.brdfs[m], level);
             GlossySide side{r, back == 1, m, at->second, level};
             side.first_patch = patches.roots[r].first_leaf + (back ? patches.leaf_count : 0);
-            side.leaf_count = (r + 1 < patches.roots.size() ? patches.roots[r + 1].first_leaf
-                                                            : patches.leaf_count) -
-                              patches.roots[r].first_leaf;
+            side.leaf_count = patches.leaves_of(r);
             side.first_element = glossy.element_count;
             glossy.element_count += static_cast<std::uint64_t>(side.bins()) * side.leaf_count;
             glossy.of_root_side[2 * r + back] = static_cast<std::uint32_t>(glossy.sides.size());

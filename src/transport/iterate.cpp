@@ -55,9 +55,9 @@ public:
           component_(mesh, patches, sources, workers),
           environment_(sources.environment),
           is_glossy_(!sources.glossy.empty()) {
-        for (std::uint32_t r = 0; r < mesh.triangles.size(); ++r) {
-            leaf_area_.push_back(leaf_area(mesh, patches, r));
-        }
+        leaf_area_.reserve(patches.leaf_count);
+        for (std::uint32_t leaf = 0; leaf < patches.leaf_count; ++leaf)
+            leaf_area_.push_back(area_of_leaf(mesh, patches, leaf));
     }
 
     TransportResult run() {
@@ -197,7 +197,7 @@ private:
     }
 
     double area_of_patch(std::uint32_t patch) const {
-        return leaf_area_[patches_.root_of_leaf[patches_.leaf_of_patch(patch)]];
+        return leaf_area_[patches_.leaf_of_patch(patch)];
     }
 
     bool stopped() {
@@ -252,7 +252,7 @@ private:
     FiniteElementComponent component_;
     const Environment& environment_;
     bool is_glossy_;
-    std::vector<double> leaf_area_;  ///< one a root
+    std::vector<double> leaf_area_;
     std::uint64_t done_ = 0;
     double relative_error_ = std::numeric_limits<double>::quiet_NaN();
     bool interrupted_ = false;

@@ -136,8 +136,7 @@ void Hemicube::draw_root(const Face& face, std::uint32_t root) {
     const glm::dvec3 to_b1 = glm::cross(e2, area_normal) * per_area,
                      to_b2 = glm::cross(area_normal, e1) * per_area;
     const bool back = height > 0.0;
-    const RootPatches& patches = patches_.roots[root];
-    const std::uint32_t first_patch = patches.first_leaf + (back ? patches_.leaf_count : 0);
+    const std::uint32_t side = back ? patches_.leaf_count : 0;
     auto& pixels = pixels_[static_cast<std::size_t>(&face - faces_.data())];
 
     const auto span = [&](std::int32_t y, std::int32_t x0, std::int32_t x1) {
@@ -148,8 +147,8 @@ void Hemicube::draw_root(const Face& face, std::uint32_t root) {
             if (!(t > 0.0)) continue;
             const glm::dvec3 hit = d * t - corner[0];
             const std::uint32_t patch =
-                first_patch + leaf_in_root(patches.level, static_cast<float>(glm::dot(hit, to_b1)),
-                                           static_cast<float>(glm::dot(hit, to_b2)));
+                side + patches_.leaf_at(root, static_cast<float>(glm::dot(hit, to_b1)),
+                                        static_cast<float>(glm::dot(hit, to_b2)));
             const double squared = glm::dot(d, d);
             PatchSums& s = sums_[patch];
             ++s.pixels;
@@ -197,14 +196,12 @@ void Hemicube::add_seen(const Face& face) {
 
 /// Share of a leaf's area above the hemicube's horizon.
 double Hemicube::front_share(std::uint32_t leaf) const {
-    const std::uint32_t root = patches_.root_of_leaf[leaf];
     Outline outline;
     outline.count = 3;
-    const auto corners = leaf_corners(patches_, leaf);
+    const auto corners = points_of_leaf(mesh_, patches_, leaf);
     int below = 0;
     for (int i = 0; i < 3; ++i) {
-        outline.p[i] =
-            point_of_root(mesh_, root, corners[i], patches_.roots[root].level) - position_;
+        outline.p[i] = corners[i] - position_;
         below += glm::dot(outline.p[i], frame_[2]) < 0.0;
     }
     if (below == 0) return 1.0;
@@ -213,17 +210,16 @@ double Hemicube::front_share(std::uint32_t leaf) const {
     glm::dvec3 area(0.0);
     for (int i = 1; i + 1 < above.count; ++i)
         area += glm::cross(above.p[i] - above.p[0], above.p[i + 1] - above.p[0]);
-    return 0.5 * glm::length(area) / leaf_area(mesh_, patches_, root);
+    return 0.5 * glm::length(area) / area_of_leaf(mesh_, patches_, leaf);
 }
 
 /// Flux over the patch's area where there are pixels enough, which keeps the flux; else over the
 /// area behind its own pixels: their errors cancel.
 PatchView Hemicube::view_of(const PatchSums& sums, std::uint32_t patch) const {
     const std::uint32_t leaf = patches_.leaf_of_patch(patch);
-    const double kernel =
-        sums.pixels >= enough_pixels
-            ? sums.covered / leaf_area(mesh_, patches_, patches_.root_of_leaf[leaf])
-            : sums.covered / sums.area * front_share(leaf);
+    const double kernel = sums.pixels >= enough_pixels
+                              ? sums.covered / area_of_leaf(mesh_, patches_, leaf)
+                              : sums.covered / sums.area * front_share(leaf);
     return {static_cast<float>(kernel),
             static_cast<float>(std::min(1.0, sums.seen / sums.covered))};
 }
@@ -232,8 +228,7 @@ PatchView Hemicube::view_of(const PatchSums& sums, std::uint32_t patch) const {
 PatchView Hemicube::view_of_missed(std::uint32_t patch) const {
     const std::uint32_t leaf = patches_.leaf_of_patch(patch), root = patches_.root_of_leaf[leaf];
     glm::dvec3 centre(0.0);
-    for (const glm::ivec2& c : leaf_corners(patches_, leaf))
-        centre += point_of_root(mesh_, root, c, patches_.roots[root].level) / 3.0;
+    for (const glm::dvec3& corner : points_of_leaf(mesh_, patches_, leaf)) centre += corner / 3.0;
     const glm::dvec3 d = centre - position_;
     const double up = glm::dot(d, frame_[2]);
     const double facing =

@@ -115,6 +115,9 @@ void TransilluminationBuffer::draw(std::uint32_t root, const TileRect& rect, Scr
         static_cast<std::int64_t>(std::clamp(depth.dx, -0x1p62, 0x1p62)));
 
     const std::uint64_t low = facing | patches.first_leaf;
+    const std::uint32_t* const cells = patches.mixed == RootPatches::uniform
+                                           ? nullptr
+                                           : patches_.mixed_roots[patches.mixed].cells.data();
     const auto ds = static_cast<float>(b[0].dx), dt = static_cast<float>(b[1].dx);
 
     scratch.reserve();
@@ -134,9 +137,11 @@ void TransilluminationBuffer::draw(std::uint32_t root, const TileRect& rect, Scr
             // Whole blocks, of which the next span overwrites what is too much: short spans would
             // mispredict a loop's end.
             for (; length > 0; length -= block) {
-                const std::array<std::uint32_t, block> leaf =
+                std::array<std::uint32_t, block> leaf =
                     patches.level == 0 ? std::array<std::uint32_t, block>{}
                                        : leaves_of_block(patches.level, s0, ds, t0, dt);
+                if (cells != nullptr)
+                    for (std::uint32_t& l : leaf) l = cells[l];
                 for (int i = 0; i < block; ++i)
                     out[i] = ((z + ramp[i]) & depth_bits) | (low + leaf[i]);
                 for (int i = 0; i < block; ++i) pixel[i] = static_cast<std::uint16_t>(at + i);

@@ -1,5 +1,6 @@
 // Identities that hold in any closed scene.
 #include "physics/transport_runs.h"
+#include "support/random_hierarchy.h"
 
 #include <gtest/gtest.h>
 
@@ -30,6 +31,15 @@ TEST_P(Furnace, OfASphereIsOneEverywhere) {
     SceneBuilder b;
     b.sphere({0, 0, 0}, 1.0, 32, Facing::inwards, b.material(Spectrum(rho), Spectrum(1 - rho)));
     EXPECT_LT(largest_deviation_from_one(run_transport(b.scene, {})), 1e-4);
+}
+
+TEST_P(Furnace, OfLeavesOfSeveralLevelsIsOneEverywhere) {
+    const float rho = GetParam();
+    Monitor silent;
+    const SurfaceMesh cube = build_surface(cube_scene(rho, 1 - rho, 1 - rho), {}, silent);
+    const PatchHierarchy mixed = random_hierarchy(std::vector<int>(12, 2), 2, 1);
+    ASSERT_EQ(mixed.mixed_roots.size(), 12u);
+    EXPECT_LT(largest_deviation_from_one(run_transport(cube, mixed, {})), 1e-4);
 }
 
 INSTANTIATE_TEST_SUITE_P(Albedos, Furnace, testing::Values(0.5f, 0.95f));

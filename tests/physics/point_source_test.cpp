@@ -35,7 +35,7 @@ double wall_mean(const Solution& s, const std::vector<Spectrum>& irradiance) {
     for (std::uint32_t leaf = 0; leaf < s.patches.leaf_count; ++leaf) {
         const std::uint32_t root = s.patches.root_of_leaf[leaf];
         if (root >= 12) continue;
-        const double a = leaf_area(s.surface, s.patches, root);
+        const double a = area_of_leaf(s.surface, s.patches, leaf);
         sum += a * irradiance[leaf].x;
         area += a;
     }

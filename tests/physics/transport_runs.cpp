@@ -11,7 +11,7 @@ double TransportRun::mean_incoming(const std::function<bool(std::uint32_t, bool)
     for (std::uint32_t p = 0; p < patches.patch_count(); ++p) {
         const std::uint32_t root = patches.root_of_leaf[patches.leaf_of_patch(p)];
         if (!chosen(root, patches.is_back(p))) continue;
-        const double a = leaf_area(surface, patches, root);
+        const double a = area_of_leaf(surface, patches, patches.leaf_of_patch(p));
         sum += a * result.irradiance[p].x;
         area += a;
     }

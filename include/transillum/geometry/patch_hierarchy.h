@@ -1,5 +1,7 @@
-/// The finite-element structure over the root triangles: each is subdivided 1-to-4 in barycentric
-/// coordinates, and carries its elements on the leaves (paper §3, design: PatchHierarchy).
+/// The finite-element structure over the root triangles: each is the root of a quadtree that splits
+/// triangles 1-to-4 at their midpoints, and carries its elements on the leaves (paper §3.2, design:
+/// PatchHierarchy). A leaf of level l has 4^-l of its root's area; leaves of one root may differ in
+/// level.
 ///
 /// Both sides of a surface share one subdivision, so one look-up serves both:
 ///   leaf   a triangle of the subdivision, numbered root by root
@@ -36,19 +38,67 @@ inline constexpr int max_subdivision_level = 11;
     return static_cast<std::uint32_t>(i * (2 * (1 << level) - i) + column + (diagonal - i));
 }
 
+/// A half of a square of the subdivision that begins at (b1, b2) = (i, j) * 2^-level: the upright
+/// one, which has a corner there, or the turned one, which has one opposite.
+struct LeafTriangle {
+    std::uint16_t i = 0, j = 0;
+    std::uint8_t level = 0;
+    bool turned = false;
+
+    bool operator==(const LeafTriangle&) const = default;
+};
+
+/// What a root needs whose leaves differ in level: 4 bytes * 4^level of its smallest leaves, and 6
+/// bytes a leaf.
+struct MixedRoot {
+    /// Leaf, counted from the root's first, by leaf_in_root() of the smallest leaves' level.
+    std::vector<std::uint32_t> cells;
+    /// In preorder. The children of a triangle: at its first, second and third corner, the middle.
+    std::vector<LeafTriangle> leaves;
+
+    bool operator==(const MixedRoot&) const = default;
+};
+
 struct RootPatches {
+    static constexpr std::int32_t uniform = -1;
+
     std::uint32_t first_leaf = 0;
-    std::int32_t level = 0;  ///< uniform subdivision: 4^level leaves
+    std::int32_t level = 0;  ///< of its smallest leaves
+    /// Index into PatchHierarchy::mixed_roots. Leaves that are all of one level are `uniform`,
+    /// always: there are 4^level of them, in the order of leaf_in_root().
+    std::int32_t mixed = uniform;
+
+    bool operator==(const RootPatches&) const = default;
 };
 
 struct PatchHierarchy {
     std::vector<RootPatches> roots;  ///< one a root triangle
     std::vector<std::uint32_t> root_of_leaf;
     std::uint32_t leaf_count = 0;
+    std::vector<MixedRoot> mixed_roots;
+
+    bool operator==(const PatchHierarchy&) const = default;
 
     [[nodiscard]] std::uint32_t patch_count() const { return 2 * leaf_count; }
+    /// The leaf that holds a point of a root.
     [[nodiscard]] std::uint32_t leaf_at(std::uint32_t root, float b1, float b2) const {
-        return roots[root].first_leaf + leaf_in_root(roots[root].level, b1, b2);
+        const RootPatches& r = roots[root];
+        const std::uint32_t cell = leaf_in_root(r.level, b1, b2);
+        return r.first_leaf +
+               (r.mixed == RootPatches::uniform ? cell : mixed_roots[r.mixed].cells[cell]);
+    }
+    /// Leaves of a root; they follow its first one.
+    [[nodiscard]] std::uint32_t leaves_of(std::uint32_t root) const {
+        const RootPatches& r = roots[root];
+        return r.mixed == RootPatches::uniform
+                   ? 1u << (2 * r.level)
+                   : static_cast<std::uint32_t>(mixed_roots[r.mixed].leaves.size());
+    }
+    [[nodiscard]] int level_of_leaf(std::uint32_t leaf) const {
+        const RootPatches& r = roots[root_of_leaf[leaf]];
+        return r.mixed == RootPatches::uniform
+                   ? r.level
+                   : mixed_roots[r.mixed].leaves[leaf - r.first_leaf].level;
     }
     [[nodiscard]] std::uint32_t leaf_of_patch(std::uint32_t patch) const {
         return patch < leaf_count ? patch : patch - leaf_count;
@@ -56,18 +106,34 @@ struct PatchHierarchy {
     [[nodiscard]] bool is_back(std::uint32_t patch) const { return patch >= leaf_count; }
 };
 
-/// Corners of a leaf as integer barycentric coordinates (b1, b2) in units of 2^-level of its root,
-/// counter-clockwise as the root's.
-[[nodiscard]] std::array<glm::ivec2, 3> leaf_corners(const PatchHierarchy& patches,
-                                                     std::uint32_t leaf);
+/// Integer barycentric coordinates (b1, b2) in units of 2^-level of the root.
+struct LeafCorners {
+    /// Counter-clockwise as the root's, from the least b2 and, of these, the least b1.
+    std::array<glm::ivec2, 3> b;
+    int level = 0;  ///< of the leaf
+};
+[[nodiscard]] LeafCorners leaf_corners(const PatchHierarchy& patches, std::uint32_t leaf);
+
+/// All corners of leaves up to `level` lie on a root's lattice, numbered row by row along b1.
+[[nodiscard]] inline std::uint32_t lattice_number(int level, glm::ivec2 b) {
+    return static_cast<std::uint32_t>(b.x * ((1 << level) + 1) - b.x * (b.x - 1) / 2 + b.y);
+}
+[[nodiscard]] inline std::uint32_t lattice_size(int level) {
+    return ((1u << level) + 1) * ((1u << level) + 2) / 2;
+}
 
 /// The point of a root at (b1, b2) / 2^level; exact for snapped vertices.
 [[nodiscard]] glm::dvec3 point_of_root(const SurfaceMesh& mesh, std::uint32_t root, glm::ivec2 b,
                                        int level);
 
-/// Area of every leaf of a root [square scene units].
-[[nodiscard]] double leaf_area(const SurfaceMesh& mesh, const PatchHierarchy& patches,
-                               std::uint32_t root);
+/// The corners of a leaf.
+[[nodiscard]] std::array<glm::dvec3, 3> points_of_leaf(const SurfaceMesh& mesh,
+                                                       const PatchHierarchy& patches,
+                                                       std::uint32_t leaf);
+
+/// [square scene units]
+[[nodiscard]] double area_of_leaf(const SurfaceMesh& mesh, const PatchHierarchy& patches,
+                                  std::uint32_t leaf);
 
 /// Centre of gravity of a leaf.
 [[nodiscard]] glm::dvec3 leaf_centre(const SurfaceMesh& mesh, const PatchHierarchy& patches,
@@ -86,7 +152,7 @@ struct SubdivisionOptions {
 [[nodiscard]] PatchHierarchy subdivide_uniformly(const SurfaceMesh& mesh,
                                                  const SubdivisionOptions& options);
 
-/// A hierarchy of given levels, one a root.
+/// A hierarchy of given levels, one a root. \throws UsageError as above.
 [[nodiscard]] PatchHierarchy subdivide_to_levels(const std::vector<int>& levels);
 
 }  // namespace transillum

@@ -8,8 +8,8 @@
 
 namespace transillum {
 
-/// \throws InputError naming the file and array when it is truncated, corrupt, foreign, or of a
-/// newer format; IoError when it cannot be read. Values are checked: finite, in range, indices
+/// \throws InputError naming the file and array when it is truncated, corrupt, foreign, or of
+/// another format; IoError when it cannot be read. Values are checked: finite, in range, indices
 /// within bounds.
 [[nodiscard]] Solution load_solution(const std::filesystem::path& path);
 

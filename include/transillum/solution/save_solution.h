@@ -17,7 +17,7 @@
 
 namespace transillum {
 
-inline constexpr int solution_format_version = 1;
+inline constexpr int solution_format_version = 2;
 
 /// Facts of one run, kept beside the solution because they are no part of it.
 struct RunRecord {

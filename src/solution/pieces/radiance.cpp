@@ -12,17 +12,15 @@ namespace {
 /// Copies of what the surface says, so that a viewer needs this piece alone.
 void add_provenance(const Solution& solution, const Patches& stored, vtkFieldData& cells) {
     const PatchHierarchy& patches = solution.patches;
-    const auto root_of = [&](std::size_t i) {
-        return patches.root_of_leaf[patches.leaf_of_patch(stored[i])];
-    };
+    const auto leaf_of = [&](std::size_t i) { return patches.leaf_of_patch(stored[i]); };
     const auto triangle = [&](std::size_t i) -> const RootTriangle& {
-        return solution.surface.triangles[root_of(i)];
+        return solution.surface.triangles[patches.root_of_leaf[leaf_of(i)]];
     };
     add_array(cells, "Area", stored.size(), [&](std::size_t i) {
-        return static_cast<float>(leaf_area(solution.surface, patches, root_of(i)));
+        return static_cast<float>(area_of_leaf(solution.surface, patches, leaf_of(i)));
     });
     add_array(cells, "Level", stored.size(),
-              [&](std::size_t i) { return patches.roots[root_of(i)].level; });
+              [&](std::size_t i) { return std::int32_t{patches.level_of_leaf(leaf_of(i))}; });
     add_array(cells, "SourceObject", stored.size(),
               [&](std::size_t i) { return triangle(i).object; });
     add_array(cells, "SourceFace", stored.size(),

@@ -3,6 +3,7 @@
 #include "solution/vtk_arrays.h"
 
 #include <transillum/base/error.h>
+#include <transillum/geometry/root_trees.h>
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -192,23 +193,23 @@ void read_triangles(vtkPolyData& piece, const Path& file, SurfaceMesh& mesh) {
     }
 }
 
-void read_levels(const ArrayReader& reader, const Path& file, std::size_t roots,
-                 PatchHierarchy& patches) {
-    const auto levels = reader.read<std::int32_t>("Level", roots);
-    std::uint64_t leaves = 0;
-    for (const std::int32_t level : levels) {
-        if (level < 0 || level > max_subdivision_level) {
-            throw InputError(file.string(), "array 'Level': " + std::to_string(level) +
-                                                " is outside [0, " +
-                                                std::to_string(max_subdivision_level) + "]");
-        }
-        leaves += std::uint64_t{1} << (2 * level);
-    }
-    if (leaves > std::uint64_t{1} << 30) {
-        throw InputError(file.string(), "array 'Level': " + std::to_string(leaves) +
-                                            " leaves, at most 2^30 are accepted");
-    }
-    patches = subdivide_to_levels({levels.begin(), levels.end()});
+void add_trees(const PatchHierarchy& patches, vtkFieldData& cells, vtkFieldData& fields) {
+    const RootTrees trees = trees_of(patches);
+    const auto add = [](vtkFieldData& to, const char* name, const auto& values) {
+        add_array(to, name, values.size(), [&](std::size_t i) { return values[i]; });
+    };
+    add(cells, "Level", trees.levels);
+    add(cells, "LeafCount", trees.leaf_counts);
+    add(fields, "LeafLevel", trees.leaf_levels);
+}
+
+void read_trees(const ArrayReader& cells, const ArrayReader& fields, const Path& file,
+                std::size_t roots, PatchHierarchy& patches) try {
+    patches = subdivide_to_trees({cells.read<std::int32_t>("Level", roots),
+                                  cells.read<std::uint32_t>("LeafCount", roots),
+                                  fields.read<std::uint8_t>("LeafLevel")});
+} catch (const UsageError& error) {
+    throw InputError(file.string(), error.what());
 }
 
 }  // namespace
@@ -219,7 +220,6 @@ PolyData surface_piece(const Solution& solution) {
     vtkCellData& cells = *piece->GetCellData();
     for_triangle_members(
         [&](const char* name, auto member) { add_member(cells, name, mesh.triangles, member); });
-    add_member(cells, "Level", solution.patches.roots, &RootPatches::level);
     add_array(cells, "Normals", mesh.triangles.size(), [&](std::size_t i) {
         return Spectrum(normal_of(mesh, static_cast<std::uint32_t>(i)));
     });
@@ -229,6 +229,7 @@ PolyData surface_piece(const Solution& solution) {
     add_bin_levels(solution, cells);
 
     vtkFieldData& fields = *piece->GetFieldData();
+    add_trees(solution.patches, cells, fields);
     for_material_members(
         [&](const char* name, auto member) { add_member(fields, name, mesh.materials, member); });
     for_camera_members(
@@ -246,11 +247,11 @@ void read_surface_piece(vtkPolyData& piece, const Path& file, Solution& solution
     const ArrayReader cells{*piece.GetCellData(), file};
     for_triangle_members(
         [&](const char* name, auto member) { read_member(cells, name, mesh.triangles, member); });
-    read_levels(cells, file, mesh.triangles.size(), solution.patches);
     read_uvs(cells, mesh);
     read_shot_sides(cells, mesh.triangles.size(), solution.direct.shot_sides);
 
     const ArrayReader fields{*piece.GetFieldData(), file};
+    read_trees(cells, fields, file, mesh.triangles.size(), solution.patches);
     mesh.materials.resize(fields.read_strings("MaterialName").size());
     for_material_members(
         [&](const char* name, auto member) { read_member(fields, name, mesh.materials, member); });

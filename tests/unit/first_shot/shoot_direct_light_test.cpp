@@ -47,7 +47,8 @@ glm::dvec3 arriving_flux(const Lit& lit, int polygon = -1) {
         const std::uint32_t root = lit.patches.root_of_leaf[lit.patches.leaf_of_patch(p)];
         if (polygon < 0 ||
             lit.mesh.triangles[root].source_face == static_cast<std::uint32_t>(polygon))
-            sum += leaf_area(lit.mesh, lit.patches, root) * glm::dvec3(lit.irradiance[p]);
+            sum += area_of_leaf(lit.mesh, lit.patches, lit.patches.leaf_of_patch(p)) *
+                   glm::dvec3(lit.irradiance[p]);
     }
     return sum;
 }
@@ -67,13 +68,12 @@ SceneBuilder floor_under_lamp(double scale = 1.0) {
 /// Mean over a leaf of the closed form, by the midpoints of 64 parts.
 double mean_irradiance(const Lit& lit, std::uint32_t leaf) {
     const std::uint32_t root = lit.patches.root_of_leaf[leaf];
-    const auto c = leaf_corners(lit.patches, leaf);
-    const int level = lit.patches.roots[root].level;
+    const auto [c, level] = leaf_corners(lit.patches, leaf);
     const PatchHierarchy parts = subdivide_to_levels({3});
     double sum = 0.0;
     for (std::uint32_t part = 0; part < parts.leaf_count; ++part) {
         glm::dvec3 point(0.0);
-        for (const glm::ivec2& b : leaf_corners(parts, part)) {
+        for (const glm::ivec2& b : leaf_corners(parts, part).b) {
             const glm::ivec2 fine = 8 * c[0] + b.x * (c[1] - c[0]) + b.y * (c[2] - c[0]);
             point += point_of_root(lit.mesh, root, fine, level + 3) / 3.0;
         }
@@ -162,10 +162,9 @@ TEST(DirectIrradiance, AScreenCastsItsShadow) {
         const std::uint32_t root = lit.patches.root_of_leaf[leaf];
         if (lit.mesh.triangles[root].source_face != 0) continue;
         double low = 1.0, high = -1.0;
-        for (const glm::ivec2& b : leaf_corners(lit.patches, leaf)) {
-            const double x = point_of_root(lit.mesh, root, b, 3).x;
-            low = std::min(low, x);
-            high = std::max(high, x);
+        for (const glm::dvec3& p : points_of_leaf(lit.mesh, lit.patches, leaf)) {
+            low = std::min(low, p.x);
+            high = std::max(high, p.x);
         }
         const bool hidden = high<-0.05, open = low> 0.05;
         EXPECT_TRUE(!hidden || lit.irradiance[leaf].x == 0.0f);

@@ -31,7 +31,7 @@ TEST(PatchHierarchy, LookUpIsTheInverseOfTheCorners) {
         const double n = 1 << level;
         std::int64_t area = 0;
         for (std::uint32_t leaf = 0; leaf < patches.leaf_count; ++leaf) {
-            const auto c = leaf_corners(patches, leaf);
+            const auto c = leaf_corners(patches, leaf).b;
             ASSERT_EQ(twice_area(c), 1) << "level " << level << " leaf " << leaf;
             area += twice_area(c);
             ASSERT_EQ(look_up(level, glm::dvec2(c[0] + c[1] + c[2]) / (3.0 * n)), leaf)
@@ -51,7 +51,7 @@ TEST(PatchHierarchy, LookUpIsTheInverseOfTheCorners) {
 TEST(PatchHierarchy, LookUpHoldsAtTheDeepestLevel) {
     const PatchHierarchy patches = subdivide_to_levels({max_subdivision_level});
     for (std::uint32_t leaf = 0; leaf < patches.leaf_count; ++leaf) {
-        const auto c = leaf_corners(patches, leaf);
+        const auto c = leaf_corners(patches, leaf).b;
         ASSERT_EQ(twice_area(c), 1);
         ASSERT_EQ(look_up(max_subdivision_level, glm::dvec2(c[0] + c[1] + c[2]) / (3.0 * 2048.0)),
                   leaf);
@@ -84,7 +84,7 @@ TEST(PatchHierarchy, PointsOnEdgesAndALittleOutsideGoToALeafTheyTouch) {
             const double away = 1e-6 * (random.next() - 0.5), aside = 1e-6 * (random.next() - 0.5);
             const std::uint32_t leaf = look_up(level, {b1 + away, b2 + aside});
             ASSERT_LT(leaf, patches.leaf_count);
-            EXPECT_TRUE(contains(leaf_corners(patches, leaf), glm::dvec2(b1, b2) * double(n),
+            EXPECT_TRUE(contains(leaf_corners(patches, leaf).b, glm::dvec2(b1, b2) * double(n),
                                  3e-6 * n + 1e-6))
                 << "level " << level << ": " << b1 << ", " << b2;
         }
@@ -96,7 +96,7 @@ TEST(PatchHierarchy, PointsOnEdgesAndALittleOutsideGoToALeafTheyTouch) {
                     leaf_in_root(level, std::nextafter(static_cast<float>(i) / fn, 0.0f),
                                  std::nextafter(static_cast<float>(j) / fn, 0.0f));
                 ASSERT_LT(leaf, patches.leaf_count);
-                ASSERT_TRUE(contains(leaf_corners(patches, leaf), {i, j}, 0.0)) << level;
+                ASSERT_TRUE(contains(leaf_corners(patches, leaf).b, {i, j}, 0.0)) << level;
             }
         const float huge = std::numeric_limits<float>::max();
         for (const float x : {-huge, -1.0f, 0.3f, 2.0f, huge})
@@ -126,12 +126,9 @@ TEST(PatchHierarchy, LeavesTileTheirRoot) {
     std::vector<glm::dvec3> area(mesh.triangles.size());
     for (std::uint32_t leaf = 0; leaf < patches.leaf_count; ++leaf) {
         const std::uint32_t root = patches.root_of_leaf[leaf];
-        std::array<glm::dvec3, 3> p;
-        for (int i = 0; i < 3; ++i)
-            p[i] = point_of_root(mesh, root, leaf_corners(patches, leaf)[i],
-                                 patches.roots[root].level);
+        const std::array<glm::dvec3, 3> p = points_of_leaf(mesh, patches, leaf);
         const glm::dvec3 piece = 0.5 * glm::cross(p[1] - p[0], p[2] - p[0]);
-        EXPECT_NEAR(glm::length(piece) / leaf_area(mesh, patches, root), 1.0, 1e-9);
+        EXPECT_NEAR(glm::length(piece) / area_of_leaf(mesh, patches, leaf), 1.0, 1e-9);
         area[root] += piece;
     }
     for (std::uint32_t root = 0; root < mesh.triangles.size(); ++root)

@@ -52,10 +52,9 @@ Spectrum seen_at(const Solution& s, const glm::dvec3& point, const glm::dvec3& f
 }
 
 glm::dvec3 leaf_centre(const Solution& s, std::uint32_t leaf) {
-    const std::uint32_t root = s.patches.root_of_leaf[leaf];
     glm::dvec3 centre(0.0);
-    for (const glm::ivec2 corner : leaf_corners(s.patches, leaf))
-        centre += point_of_root(s.surface, root, corner, s.patches.roots[root].level) / 3.0;
+    for (const glm::dvec3& corner : points_of_leaf(s.surface, s.patches, leaf))
+        centre += corner / 3.0;
     return centre;
 }
 

@@ -28,7 +28,7 @@ void write(const fs::path& file, const std::string& bytes) {
 class Damage : public testing::Test {
 protected:
     Damage() : folder_(fresh_folder()), path_(folder_ / "room.vtm") {
-        save_solution(random_solution({}, 1), {"bake", 1, {}}, path_);
+        save_solution(random_solution({.splits = 2}, 1), {"bake", 1, {}}, path_);
         files_ = files_below(folder_);
         files_.erase("room");
         files_.erase("room/run.json");
@@ -147,12 +147,15 @@ TEST_F(Damage, ForeignFiles) {
     }
 }
 
-TEST_F(Damage, NewerFormat) {
+TEST_F(Damage, AnotherFormat) {
     std::string text = files_.at("room.vtm");
     const std::string format = "transillum_format=\"";
-    text.replace(text.find(format) + format.size(), 1, "2");
+    text.replace(text.find(format) + format.size(), 1, "1");
     write(path_, text);
-    expect_refused("room.vtm", "written by format 2, this program reads up to 1");
+    expect_refused("room.vtm", "written by format 1, this program reads format 2");
+    text.replace(text.find(format) + format.size(), 1, "3");
+    write(path_, text);
+    expect_refused("room.vtm", "written by format 3, this program reads format 2");
 }
 
 TEST_F(Damage, MissingBlock) {
@@ -195,10 +198,36 @@ TEST_F(Damage, ValuesOutOfRange) {
     expect_refused("incoming.vtp", "neither 0 nor 1");
     restore();
     forge_cell("surface", "Level", 12);
-    expect_refused("surface.vtp", "outside [0, 11]");
+    expect_refused("surface.vtp", "subdivision level 12; accepted: 0 to 11");
     restore();
     forge_cell("surface", "Material", 9);
     expect_refused("room.vtm", "root 1 material: index 9 of 3");
+}
+
+TEST_F(Damage, TreesThatAreNone) {
+    const auto forge_number = [this](bool of_cells, const char* array, int index, int change) {
+        forge("surface", [=](vtkPolyData& data) {
+            vtkDataArray* numbers = of_cells ? data.GetCellData()->GetArray(array)
+                                             : data.GetFieldData()->GetArray(array);
+            numbers->SetComponent(index, 0, numbers->GetComponent(index, 0) + change);
+        });
+    };
+    for (const int root : {0, 1, 2})
+        for (const int change : {-1, 1}) {
+            forge_number(true, "LeafCount", root, change);
+            expect_refused("surface.vtp", "root ");
+            forge_number(true, "Level", root, change);
+            expect_refused("surface.vtp", "root ");
+        }
+    for (const int leaf : {0, 1, 5, 20})
+        for (const int change : {-1, 1, 100}) {
+            forge_number(false, "LeafLevel", leaf, change);
+            expect_refused("surface.vtp", "root ");
+        }
+    forge("surface", [](vtkPolyData& data) { data.GetFieldData()->RemoveArray("LeafLevel"); });
+    expect_refused("surface.vtp", "array 'LeafLevel' is missing");
+    restore();
+    static_cast<void>(load_solution(path_));
 }
 
 TEST_F(Damage, RunRecord) {

@@ -11,6 +11,7 @@ namespace transillum::test {
 
 struct Shape {
     std::vector<int> levels{0, 2, 1};  ///< one a root
+    int splits = 0;                    ///< rounds of splitting leaves at random after that
     int light_samples = 3;
     int cameras = 2;
     bool uvs = false;

@@ -46,7 +46,9 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Shape{}, Shape{.levels = {3}, .light_samples = 1},
                     Shape{.light_samples = 0, .uvs = true}, Shape{.cameras = 0, .one_sided = true},
                     Shape{.levels = {4, 0, 0, 1, 5, 2}, .light_samples = 40, .uvs = true},
-                    Shape{.lit = false}, Shape{.levels = {}, .light_samples = 0}));
+                    Shape{.lit = false}, Shape{.levels = {}, .light_samples = 0},
+                    Shape{.splits = 3}, Shape{.splits = 4, .lit = false},
+                    Shape{.levels = {0, 3, 0, 1, 5, 0}, .splits = 2, .light_samples = 1}));
 
 TEST(Solution, SurvivesAnyFileName) {
     for (const std::string name :
@@ -101,6 +103,29 @@ TEST(Solution, RunRecordIsEmptyWhereThereIsNone) {
     const auto path = fresh_folder() / "room.vtm";
     EXPECT_EQ(load_run_record(path).threads, 0);
     EXPECT_EQ(load_run_record(path).command_line, "");
+}
+
+TEST(Solution, ContradictoryTreesAreNotSaved) {
+    const std::vector<std::pair<std::string, void (*)(PatchHierarchy&)>> defects{
+        {"contradict", [](PatchHierarchy& p) { ++p.mixed_roots[0].cells[0]; }},
+        {"contradict", [](PatchHierarchy& p) { p.mixed_roots[0].cells.pop_back(); }},
+        {"contradict", [](PatchHierarchy& p) { p.mixed_roots.emplace_back(); }},
+        {"contradict", [](PatchHierarchy& p) { ++p.mixed_roots[0].leaves[0].i; }},
+        {"subdivision: root ", [](PatchHierarchy& p) { p.mixed_roots[0].leaves[0].level = 9; }},
+        {"root 2 tree: index 7", [](PatchHierarchy& p) { p.roots[2].mixed = 7; }},
+        {"root 2 level", [](PatchHierarchy& p) { p.roots[2].level = 12; }}};
+    for (const auto& [message, spoil] : defects) {
+        const auto path = fresh_folder() / "room.vtm";
+        Solution solution = random_solution({.splits = 3}, 1);
+        ASSERT_FALSE(solution.patches.mixed_roots.empty());
+        spoil(solution.patches);
+        try {
+            save_solution(solution, {}, path);
+            ADD_FAILURE() << message;
+        } catch (const Error& error) {
+            EXPECT_THAT(error.what(), testing::HasSubstr(message));
+        }
+    }
 }
 
 TEST(Solution, UnsoundIsNotSaved) {

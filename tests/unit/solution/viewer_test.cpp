@@ -16,6 +16,7 @@
 #include <glm/geometric.hpp>
 
 #include <cmath>
+#include <set>
 
 namespace transillum::test {
 
@@ -82,10 +83,10 @@ TEST(Viewer, SeesTheArrays) {
                 testing::IsSupersetOf({"Visibility", "ProjectedSolidAngle"}));
     EXPECT_THAT(array_names(*blocks.pieces["lights"]->GetPointData()),
                 testing::UnorderedElementsAre("Normal", "Area", "Radiance", "Root", "Back"));
-    EXPECT_THAT(
-        array_names(*blocks.pieces["surface"]->GetCellData()),
-        testing::UnorderedElementsAre("Normals", "UVs", "Material", "SourceObject", "SourceFace",
-                                      "Level", "Fans", "FirstShotFront", "FirstShotBack"));
+    EXPECT_THAT(array_names(*blocks.pieces["surface"]->GetCellData()),
+                testing::UnorderedElementsAre("Normals", "UVs", "Material", "SourceObject",
+                                              "SourceFace", "Level", "LeafCount", "Fans",
+                                              "FirstShotFront", "FirstShotBack"));
     EXPECT_THAT(array_names(*blocks.pieces["surface"]->GetFieldData()),
                 testing::IsSupersetOf({"FormatVersion", "ProgramVersion", "Units", "SceneHash",
                                        "Iterations", "Seed", "MaterialDiffuse", "CameraEye"}));
@@ -146,6 +147,40 @@ TEST(Viewer, CellsTileTheirRootsAndBacksFaceBack) {
     vtkIdType expected = 0;
     for (const auto& [root_and_side, sum] : sums) expected += corners.at(root_and_side.first);
     EXPECT_EQ(piece.GetNumberOfPoints(), expected);
+}
+
+TEST(Viewer, LeavesOfSeveralLevelsTileTheirRootsAndShareTheirPoints) {
+    const Solution solution =
+        random_solution({.levels = {0, 2, 1}, .splits = 3, .light_samples = 0}, 4);
+    ASSERT_FALSE(solution.patches.mixed_roots.empty());
+    Blocks blocks(solution);
+    vtkPolyData& piece = *blocks.pieces["radiance"];
+    piece.BuildCells();
+    std::map<std::pair<int, int>, double> shares;
+    std::map<std::pair<int, int>, std::set<std::array<double, 3>>> places;
+    for (vtkIdType i = 0; i < piece.GetNumberOfCells(); ++i) {
+        const auto value = [&](const char* name) {
+            return static_cast<int>(piece.GetCellData()->GetArray(name)->GetComponent(i, 0));
+        };
+        const auto root = static_cast<std::uint32_t>(value("Root"));
+        const std::pair side{value("Root"), value("Side")};
+        const double share = std::ldexp(1.0, -2 * value("Level"));
+        const glm::dvec3 whole = 2.0 * area_of(solution.surface, root) *
+                                 normal_of(solution.surface, root) * (side.second ? -1.0 : 1.0);
+        EXPECT_LT(glm::length(cell_vector(piece, i) - share * whole), 1e-12);
+        shares[side] += share;
+        vtkIdType size = 0;
+        const vtkIdType* corners = nullptr;
+        piece.GetCellPoints(i, size, corners);
+        for (vtkIdType c = 0; c < size; ++c) {
+            const glm::dvec3 p = point(piece, corners[c]);
+            places[side].insert({p.x, p.y, p.z});
+        }
+    }
+    vtkIdType points = 0;
+    for (const auto& [side, share] : shares) EXPECT_EQ(share, 1.0);
+    for (const auto& [side, distinct] : places) points += std::ssize(distinct);
+    EXPECT_EQ(piece.GetNumberOfPoints(), points);
 }
 
 TEST(Viewer, EmptyBlocksOfADarkSceneOpen) {

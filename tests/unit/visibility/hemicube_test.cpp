@@ -1,4 +1,5 @@
 #include "support/closed_forms.h"
+#include "support/random_hierarchy.h"
 #include "support/scene_builder.h"
 
 #include <transillum/base/error.h>
@@ -37,7 +38,7 @@ struct Model {
         for (std::uint32_t p = 0; p < patches.patch_count(); ++p) {
             const std::uint32_t root = patches.root_of_leaf[patches.leaf_of_patch(p)];
             if (mesh.triangles[root].source_face != polygon || patches.is_back(p) != back) continue;
-            sum += leaf_area(mesh, patches, root) * views[p].mean_kernel *
+            sum += area_of_leaf(mesh, patches, patches.leaf_of_patch(p)) * views[p].mean_kernel *
                    (seen ? views[p].visibility : 1.0f);
         }
         return sum;
@@ -230,6 +231,47 @@ TEST(Hemicube, EveryValueIsInItsRange) {
             ASSERT_LE(v.visibility, 1.0f);
         }
     }
+}
+
+TEST(Hemicube, APatchGetsTheFluxOfItsParts) {
+    SceneBuilder builder;
+    builder.box({0, 0, 0}, {1, 1, 1}, Facing::inwards);
+    builder.sphere({0.5, 0.5, 0.4}, 0.2, 6, Facing::outwards);
+    Model model(builder, 0);
+    model.patches = random_hierarchy(std::vector<int>(model.mesh.triangles.size()), 2, 4);
+    ASSERT_FALSE(model.patches.mixed_roots.empty());
+    const SplitPatches parts = split_all_leaves(model.patches);
+    Hemicube whole(model.mesh, model.patches, 512), split(model.mesh, parts.patches, 512);
+    Random random(11, 9);
+    int compared = 0;
+    for (int i = 0; i < 4; ++i) {
+        const double x = random.next(), y = random.next();
+        const glm::dmat3 frame = turned_frame({0, 0, -1}, random);
+        const auto flux = [&](Hemicube& hemicube, const PatchHierarchy& patches) {
+            const auto& views = hemicube.look({x, y, 1.0}, frame);
+            std::vector<double> values;
+            for (std::uint32_t p = 0; p < patches.patch_count(); ++p)
+                values.push_back(area_of_leaf(model.mesh, patches, patches.leaf_of_patch(p)) *
+                                 views[p].mean_kernel * views[p].visibility);
+            return values;
+        };
+        const auto expected = flux(whole, model.patches), of_parts = flux(split, parts.patches);
+        std::vector<double> sums(expected.size());
+        std::vector<double> smallest(expected.size(), 1.0);
+        for (std::uint32_t p = 0; p < of_parts.size(); ++p) {
+            const std::uint32_t parent = parts.parent[parts.patches.leaf_of_patch(p)] +
+                                         (parts.patches.is_back(p) ? model.patches.leaf_count : 0);
+            sums[parent] += of_parts[p];
+            smallest[parent] = std::min(smallest[parent], of_parts[p]);
+        }
+        // Flux is kept where every part has dozens of pixels, of at most (2 / 512)^2 each.
+        for (std::uint32_t p = 0; p < sums.size(); ++p) {
+            if (smallest[p] < 64.0 * 4.0 / (512.0 * 512.0)) continue;
+            EXPECT_NEAR(sums[p], expected[p], 1e-6 * expected[p]);
+            ++compared;
+        }
+    }
+    EXPECT_GT(compared, 100);
 }
 
 TEST(Hemicube, RefusesResolutionsItCannotDo) {

@@ -1,4 +1,5 @@
 #include "support/closed_forms.h"
+#include "support/random_hierarchy.h"
 #include "support/scene_builder.h"
 #include "unit/visibility/pixel_lists.h"
 
@@ -175,8 +176,7 @@ TEST(TransilluminationBuffer, ASubdividedCubeCoversWhatThePlainOneDoes) {
     const PatchHierarchy pa = uniform_levels(a, 3);
     for (std::uint32_t leaf = 0; leaf < pa.leaf_count; ++leaf) {
         Outline triangle;
-        for (const glm::ivec2& c : leaf_corners(pa, leaf))
-            triangle.push_back(point_of_root(a, pa.root_of_leaf[leaf], c, 3));
+        for (const glm::dvec3& p : points_of_leaf(a, pa, leaf)) triangle.push_back(p);
         divided.polygon(triangle);
     }
     const SurfaceMesh b = divided.surface();
@@ -198,6 +198,50 @@ TEST(TransilluminationBuffer, ASubdividedCubeCoversWhatThePlainOneDoes) {
     constexpr double strip = 6.0 * pixels_an_edge / 512.0 * 1.5;
     EXPECT_LT(changed / n, strip);
     EXPECT_LT(std::abs(difference), 5.0 * std::sqrt(strip * n));
+}
+
+/// Every root as fine throughout as its smallest leaf.
+PatchHierarchy finest_of(const PatchHierarchy& patches) {
+    std::vector<int> levels;
+    for (const RootPatches& r : patches.roots) levels.push_back(r.level);
+    return subdivide_to_levels(levels);
+}
+
+/// The list of every pixel, one after the other.
+std::vector<Fragment> all_fragments(TransilluminationBuffer& buffer, const Bundle& bundle) {
+    std::vector<Fragment> all;
+    for_lists(buffer, bundle, Workers(1),
+              [&](PixelList list) { all.insert(all.end(), list.begin(), list.end()); });
+    return all;
+}
+
+TEST(TransilluminationBuffer, LeavesOfSeveralLevelsGetWhatTheSmallestOfTheirRootDo) {
+    SceneBuilder builder;
+    builder.box({0, 0, 0}, {1, 1, 1}, Facing::inwards);
+    builder.sphere({0.5, 0.5, 0.5}, 0.3, 12, Facing::outwards);
+    const SurfaceMesh mesh = builder.surface();
+    for (const std::uint64_t seed : {1, 2, 3}) {
+        const PatchHierarchy mixed =
+            random_hierarchy(std::vector<int>(mesh.triangles.size(), seed % 2), 3, seed);
+        ASSERT_GT(mixed.mixed_roots.size(), mesh.triangles.size() / 2);
+        const PatchHierarchy fine = finest_of(mixed);
+        std::vector<std::uint32_t> leaf_of_fine;
+        for (std::uint32_t leaf = 0; leaf < fine.leaf_count; ++leaf) {
+            const auto [corners, level] = leaf_corners(fine, leaf);
+            const glm::vec2 centre = glm::vec2(corners[0] + corners[1] + corners[2]) /
+                                     (3.0f * static_cast<float>(1 << level));
+            leaf_of_fine.push_back(mixed.leaf_at(fine.root_of_leaf[leaf], centre.x, centre.y));
+        }
+        TransilluminationBuffer a(mesh, mixed, 1.0 / 150.0), b(mesh, fine, 1.0 / 150.0);
+        for (std::uint32_t i = 0; i < 32; ++i) {
+            const Bundle bundle = sample_bundle(i, seed);
+            const auto of_mixed = all_fragments(a, bundle);
+            auto expected = all_fragments(b, bundle);
+            ASSERT_GT(expected.size(), 10000u);
+            for (Fragment& f : expected) f += leaf_of_fine[leaf_of(f)] - std::uint64_t{leaf_of(f)};
+            ASSERT_TRUE(of_mixed == expected);
+        }
+    }
 }
 
 /// Leaves share the fragments of their root by area.
