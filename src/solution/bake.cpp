@@ -116,7 +116,7 @@ EnergyBalance measure_balance(const Solution& s, const SpectrumSum& escaped_in_t
     balance.escaped = escaped_in_transport;
     SpectrumSum shot(0.0), arrived(0.0);
     for (const LightSample& l : s.direct.samples)
-        shot += SpectrumSum(l.radiance) * (std::numbers::pi * l.area);
+        shot += SpectrumSum(l.emitted) * (std::numbers::pi * l.area);
     for (std::uint32_t p = 0; p < s.patches.patch_count(); ++p) {
         const double area =
             leaf_area(s.surface, s.patches, s.patches.root_of_leaf[s.patches.leaf_of_patch(p)]);
