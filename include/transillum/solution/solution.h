@@ -5,6 +5,7 @@
 #include <transillum/first_shot/direct_light.h>
 #include <transillum/geometry/patch_hierarchy.h>
 #include <transillum/geometry/surface_mesh.h>
+#include <transillum/scene/lighting.h>
 
 #include <cstdint>
 #include <string>
@@ -32,6 +33,7 @@ struct Solution {
     SurfaceMesh surface;
     PatchHierarchy patches;
     DirectLight direct;
+    Lighting lighting;  ///< what `direct` samples beside the surface, and the environment
     std::vector<Camera> cameras;
 
     // One a patch (PatchHierarchy: fronts, then backs). Sides that neither reflect nor emit hold
