@@ -90,11 +90,22 @@ void add_samples(const SurfaceMesh& mesh, const Luminaire& luminaire, int count,
             point_in(mesh, side->root, sobol_owen(index, 0, seed), sobol_owen(index, 1, seed));
         s.normal = normal_of(mesh, side->root) * (side->back ? -1.0 : 1.0);
         s.area = piece;
-        s.radiance = mesh.materials[mesh.triangles[side->root].material].emission;
+        s.emitted = mesh.materials[mesh.triangles[side->root].material].emission;
         s.root = side->root;
         s.back = side->back;
         samples.push_back(s);
     }
+}
+
+LightSample sample_of(const PunctualLight& light, std::uint32_t number) {
+    LightSample s;
+    s.position = light.position;
+    s.normal = light.direction;
+    s.emitted = light.intensity;
+    s.kind = light.kind == PunctualLight::Kind::directional ? LightSample::Kind::directional
+                                                            : LightSample::Kind::point;
+    s.light = number;
+    return s;
 }
 
 /// About 128 in all, between 4 and 64 each, a power of two: the sequence fills strata then.
@@ -106,11 +117,14 @@ int samples_for(std::size_t luminaires) {
 
 }  // namespace
 
-Luminaires sample_luminaires(const SurfaceMesh& mesh, const LightSampleOptions& options) {
+Luminaires sample_luminaires(const SurfaceMesh& mesh, const LightSampleOptions& options,
+                             const std::vector<PunctualLight>& lights) {
     if (options.samples < 0 || options.samples > 4096)
         throw UsageError("light samples " + std::to_string(options.samples) +
                          "; accepted: 0 (automatic) to 4096 a luminaire");
     Luminaires result;
+    result.lights = lights;
+    result.seed = options.seed;
     result.shot_sides.resize(2 * mesh.triangles.size());
     const std::vector<Luminaire> luminaires = find_luminaires(mesh);
     result.count = static_cast<std::uint32_t>(luminaires.size());
@@ -130,7 +144,13 @@ Luminaires sample_luminaires(const SurfaceMesh& mesh, const LightSampleOptions& 
         for (const EmittingSide& s : luminaires[i])
             result.shot_sides[2 * s.root + (s.back ? 1 : 0)] = 1;
     }
+    for (std::uint32_t i = 0; i < lights.size(); ++i)
+        result.samples.push_back(sample_of(lights[i], i));
     return result;
+}
+
+std::uint64_t first_shot_bytes(std::size_t samples, std::uint64_t patches) {
+    return samples * patches * (sizeof(float) + sizeof(float));
 }
 
 }  // namespace transillum

@@ -1,7 +1,9 @@
 #include <transillum/base/sampling.h>
 #include <transillum/first_shot/shoot_direct_light.h>
 #include <transillum/visibility/hemicube.h>
+#include <transillum/visibility/parallel_view.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <mutex>
@@ -11,44 +13,112 @@ namespace transillum {
 
 namespace {
 
-/// About the sample's normal, turned by a number that depends on the sample alone.
-glm::dmat3 turned_frame(const LightSample& sample, std::size_t index) {
-    const double turn = 2.0 * std::numbers::pi * Random(index, 0).next();
+/// Pixels across the parallel projection of a directional light, to one along a hemicube's edge.
+constexpr int parallel_resolution = 4, largest_parallel_resolution = 4096;
+
+/// About the sample's normal, turned by a number that depends on the seed and the sample alone.
+glm::dmat3 turned_frame(const LightSample& sample, Random& random) {
+    const double turn = 2.0 * std::numbers::pi * random.next();
     const glm::dmat3 f = frame_about(sample.normal);
     const double c = std::cos(turn), s = std::sin(turn);
     return {c * f[0] + s * f[1], c * f[1] - s * f[0], f[2]};
 }
+
+class Shot {
+public:
+    Shot(const SurfaceMesh& mesh, const PatchHierarchy& patches, const Luminaires& luminaires,
+         int resolution)
+        : mesh_(mesh), patches_(patches), luminaires_(luminaires), resolution_(resolution) {
+        light_.samples = luminaires.samples;
+        light_.shot_sides = luminaires.shot_sides;
+        light_.geometry_factor.resize(light_.samples.size() * patches.patch_count());
+        light_.visibility.resize(light_.geometry_factor.size());
+    }
+
+    /// A hemicube a sample, on each worker.
+    void shoot_near(const Workers& workers, Monitor& monitor) {
+        std::vector<std::unique_ptr<Hemicube>> hemicubes(workers.count());
+        std::mutex reporting;
+        const auto shoot = [&](std::size_t begin, std::size_t end, int worker) {
+            auto& hemicube = hemicubes[worker];
+            if (!hemicube) hemicube = std::make_unique<Hemicube>(mesh_, patches_, resolution_);
+            for (std::size_t i = begin; i < end && !monitor.stop_requested(); ++i) {
+                if (is_directional(i)) continue;
+                keep(i, look(*hemicube, i), is_area(i) ? light_.samples[i].area : 1.0);
+                const std::lock_guard lock(reporting);
+                report(monitor);
+            }
+        };
+        workers.for_ranges(light_.samples.size(), 1, shoot);
+    }
+
+    /// All workers on a projection.
+    void shoot_parallel(const Workers& workers, Monitor& monitor) {
+        std::unique_ptr<ParallelView> view;
+        for (std::size_t i = 0; i < light_.samples.size() && !monitor.stop_requested(); ++i) {
+            if (!is_directional(i)) continue;
+            const int pixels =
+                std::min(parallel_resolution * resolution_, largest_parallel_resolution);
+            if (!view) view = std::make_unique<ParallelView>(mesh_, patches_, pixels);
+            Random random(luminaires_.seed, i);
+            Bundle bundle{turned_frame(light_.samples[i], random)};
+            bundle.offset_x = random.next();
+            bundle.offset_y = random.next();
+            keep(i, view->look(bundle, workers), 1.0);
+            report(monitor);
+        }
+    }
+
+    [[nodiscard]] DirectLight take() { return std::move(light_); }
+
+private:
+    [[nodiscard]] bool is_area(std::size_t i) const {
+        return light_.samples[i].kind == LightSample::Kind::area;
+    }
+    [[nodiscard]] bool is_directional(std::size_t i) const {
+        return light_.samples[i].kind == LightSample::Kind::directional;
+    }
+
+    const std::vector<PatchView>& look(Hemicube& hemicube, std::size_t i) const {
+        const LightSample& sample = light_.samples[i];
+        Random random(luminaires_.seed, i);
+        const glm::dmat3 frame = turned_frame(sample, random);
+        if (is_area(i)) return hemicube.look(sample.position, frame);
+        const PunctualLight& light = luminaires_.lights[sample.light];
+        return hemicube.look_around(sample.position, frame, [&](const glm::dvec3& direction) {
+            return light.distribution(direction);
+        });
+    }
+
+    void keep(std::size_t i, const std::vector<PatchView>& views, double scale) {
+        const std::size_t n = light_.samples.size();
+        for (std::uint32_t p = 0; p < views.size(); ++p) {
+            light_.geometry_factor[p * n + i] = static_cast<float>(views[p].mean_kernel * scale);
+            light_.visibility[p * n + i] = views[p].visibility;
+        }
+    }
+
+    void report(Monitor& monitor) {
+        monitor.progress({"first shot", ++done_, light_.samples.size()});
+    }
+
+    const SurfaceMesh& mesh_;
+    const PatchHierarchy& patches_;
+    const Luminaires& luminaires_;
+    int resolution_;
+    DirectLight light_;
+    std::uint64_t done_ = 0;
+};
 
 }  // namespace
 
 DirectLight shoot_direct_light(const SurfaceMesh& mesh, const PatchHierarchy& patches,
                                const Luminaires& luminaires, int hemicube_resolution,
                                const Workers& workers, Monitor& monitor) {
-    DirectLight light;
-    light.samples = luminaires.samples;
-    light.shot_sides = luminaires.shot_sides;
-    const std::size_t n = light.samples.size();
-    light.projected_solid_angle.resize(n * patches.patch_count());
-    light.visibility.resize(n * patches.patch_count());
-    std::vector<std::unique_ptr<Hemicube>> hemicubes(workers.count());
-    std::mutex reporting;
-    std::uint64_t done = 0;
-    workers.for_ranges(n, 1, [&](std::size_t begin, std::size_t end, int worker) {
-        auto& hemicube = hemicubes[worker];
-        if (!hemicube) hemicube = std::make_unique<Hemicube>(mesh, patches, hemicube_resolution);
-        for (std::size_t i = begin; i < end && !monitor.stop_requested(); ++i) {
-            const LightSample& sample = light.samples[i];
-            const auto& views = hemicube->look(sample.position, turned_frame(sample, i));
-            for (std::uint32_t p = 0; p < patches.patch_count(); ++p) {
-                light.projected_solid_angle[p * n + i] =
-                    static_cast<float>(views[p].mean_kernel * sample.area);
-                light.visibility[p * n + i] = views[p].visibility;
-            }
-            const std::lock_guard lock(reporting);
-            monitor.progress({"first shot", ++done, n});
-        }
-    });
-    return light;
+    Shot shot(mesh, patches, luminaires, hemicube_resolution);
+    shot.shoot_near(workers, monitor);
+    shot.shoot_parallel(workers, monitor);
+    return shot.take();
 }
 
 std::vector<Spectrum> direct_irradiance(const DirectLight& light, std::uint32_t patch_count) {
@@ -57,8 +127,8 @@ std::vector<Spectrum> direct_irradiance(const DirectLight& light, std::uint32_t 
     for (std::uint32_t p = 0; p < patch_count; ++p) {
         SpectrumSum sum(0.0);
         for (std::size_t i = 0; i < n; ++i)
-            sum += SpectrumSum(light.samples[i].radiance) *
-                   (double{light.visibility[p * n + i]} * light.projected_solid_angle[p * n + i]);
+            sum += SpectrumSum(light.samples[i].emitted) *
+                   (double{light.visibility[p * n + i]} * light.geometry_factor[p * n + i]);
         irradiance[p] = Spectrum(sum);
     }
     return irradiance;

@@ -100,7 +100,7 @@ Spectrum SolutionShader::traced_irradiance(const Hit& hit) const {
         if (!(cos_here > 0.0 && cos_there > 0.0)) continue;
         if (rays_.occluded(point, normal, light.position, light.normal)) continue;
         const double distance2 = glm::dot(way, way);
-        sum += light.radiance *
+        sum += light.emitted *
                static_cast<float>(light.area * cos_here * cos_there / (distance2 * distance2));
     }
     return sum;

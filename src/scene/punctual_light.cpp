@@ -6,19 +6,29 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace transillum {
 
 namespace {
 
-/// KHR_lights_punctual, "Inner and Outer Cone Angles".
-double spot_falloff(const PunctualLight& light, const glm::dvec3& direction) {
-    const double inner = std::cos(light.inner_angle), outer = std::cos(light.outer_angle);
-    const double scale = 1.0 / std::max(0.001, inner - outer);
-    const double share =
-        std::clamp((glm::dot(light.direction, direction) - outer) * scale, 0.0, 1.0);
-    return share * share;
-}
+/// KHR_lights_punctual, "Inner and Outer Cone Angles": between them the square of what is linear in
+/// the cosine.
+struct Cone {
+    double outer, width;  ///< cosine where light begins, and over how much it becomes full
+    explicit Cone(const PunctualLight& light)
+        : outer(std::cos(light.outer_angle)),
+          width(std::max(0.001, std::cos(light.inner_angle) - outer)) {}
+    [[nodiscard]] double falloff(double cosine) const {
+        const double share = std::clamp((cosine - outer) / width, 0.0, 1.0);
+        return share * share;
+    }
+    /// Over the sphere.
+    [[nodiscard]] double integral() const {
+        const double edge = std::min(width, 1.0 - outer), share = edge / width;
+        return 2.0 * std::numbers::pi * (share * share * edge / 3.0 + 1.0 - outer - edge);
+    }
+};
 
 /// The nadir lies along the light's direction; seen from above, C grows counter-clockwise.
 double photometric_intensity(const PunctualLight& light, const glm::dvec3& direction) {
@@ -36,7 +46,15 @@ double photometric_intensity(const PunctualLight& light, const glm::dvec3& direc
 
 double PunctualLight::distribution(const glm::dvec3& towards) const {
     if (photometry) return photometric_intensity(*this, towards);
-    return kind == Kind::spot ? spot_falloff(*this, towards) : 1.0;
+    return kind == Kind::spot ? Cone(*this).falloff(glm::dot(direction, towards)) : 1.0;
+}
+
+SpectrumSum PunctualLight::flux() const {
+    if (kind == Kind::directional) return SpectrumSum(0.0);
+    const double integral = photometry           ? photometry->flux()
+                            : kind == Kind::spot ? Cone(*this).integral()
+                                                 : 4.0 * std::numbers::pi;
+    return integral * SpectrumSum(intensity);
 }
 
 Spectrum PunctualLight::intensity_towards(const glm::dvec3& towards) const {

@@ -37,12 +37,13 @@ private:
 };
 
 void require_light(const Scene& scene, const SurfaceMesh& mesh) {
+    if (!scene.lighting.lights.empty() || scene.lighting.environment.shines()) return;
     for (const RootTriangle& t : mesh.triangles)
         if (mesh.materials[t.material].emits()) return;
     throw InputError(
         scene.path,
         fmt::format("no light: none of the materials of its {} triangles emits; accepted: at "
-                    "least one (OBJ: Ke, glTF: emissiveFactor)",
+                    "least one (OBJ: Ke, glTF: emissiveFactor), a light or an environment",
                     mesh.triangles.size()));
 }
 
@@ -104,13 +105,30 @@ Spectrum reflected_share(const Solution& s, std::uint32_t patch) {
     return mean_albedo(brdf);
 }
 
+/// Flux of lights without extent on the surface; what they send past it nobody misses.
+SpectrumSum arrived_from_lights(const Solution& s) {
+    SpectrumSum sum(0.0);
+    const std::size_t n = s.direct.samples.size();
+    for (std::size_t i = 0; i < n; ++i) {
+        if (s.direct.samples[i].kind == LightSample::Kind::area) continue;
+        double share = 0.0;
+        for (std::uint32_t p = 0; p < s.patches.patch_count(); ++p)
+            share += area_of_leaf(s.surface, s.patches, s.patches.leaf_of_patch(p)) *
+                     s.direct.geometry_factor[p * n + i] * s.direct.visibility[p * n + i];
+        sum += share * SpectrumSum(s.direct.samples[i].emitted);
+    }
+    return sum;
+}
+
 EnergyBalance measure_balance(const Solution& s, const TransportResult& transport) {
     EnergyBalance balance;
     balance.escaped = transport.escaped;
     balance.entered = transport.entered;
     SpectrumSum shot(0.0), arrived(0.0);
     for (const LightSample& l : s.direct.samples)
-        shot += SpectrumSum(l.radiance) * (std::numbers::pi * l.area);
+        shot += SpectrumSum(l.emitted) * (std::numbers::pi * l.area);
+    const SpectrumSum by_lights = arrived_from_lights(s);
+    balance.entered += by_lights;
     for (std::uint32_t p = 0; p < s.patches.patch_count(); ++p) {
         const double area = area_of_leaf(s.surface, s.patches, s.patches.leaf_of_patch(p));
         const SpectrumSum direct = area * SpectrumSum(s.direct_irradiance[p]);
@@ -123,7 +141,7 @@ EnergyBalance measure_balance(const Solution& s, const TransportResult& transpor
         else
             balance.black_backs += flux;
     }
-    balance.escaped += glm::max(shot - arrived, SpectrumSum(0.0));
+    balance.escaped += glm::max(shot - (arrived - by_lights), SpectrumSum(0.0));
     return balance;
 }
 
@@ -190,6 +208,7 @@ Solution bake(const Scene& scene, const BakeOptions& options, const Workers& wor
     Solution s;
     s.seed = options.seed;
     s.cameras = scene.cameras;
+    s.lighting = scene.lighting;
     record_settings(options, s);
 
     s.surface = build_surface(scene, options.surface, monitor);
@@ -203,7 +222,7 @@ Solution bake(const Scene& scene, const BakeOptions& options, const Workers& wor
 
     LightSampleOptions light = options.light;
     light.seed = options.seed;
-    const Luminaires luminaires = sample_luminaires(s.surface, light);
+    const Luminaires luminaires = sample_luminaires(s.surface, light, s.lighting.lights);
     decide_first_shot(luminaires, light.first_shot, s.decisions);
     s.direct = shoot_direct_light(s.surface, s.patches, luminaires, options.hemicube_resolution,
                                   workers, monitor);
@@ -220,7 +239,8 @@ Solution bake(const Scene& scene, const BakeOptions& options, const Workers& wor
         iteration.iterations = 0;
         s.decisions.push_back({"no iteration", "no surface reflects the direct light"});
     }
-    s.decisions.push_back({"no environment", "the scene has none"});
+    if (!s.lighting.environment.shines())
+        s.decisions.push_back({"no environment", "the scene has none"});
     TransportResult transport = iterate(s.surface, s.patches, sources, iteration, workers, monitor);
     watch.lap("transport");
 

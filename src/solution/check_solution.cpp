@@ -2,6 +2,7 @@
 
 #include <transillum/base/error.h>
 #include <transillum/geometry/root_trees.h>
+#include <transillum/scene/photometry.h>
 
 #include <cmath>
 #include <limits>
@@ -156,18 +157,73 @@ void check_spectra(const std::vector<Spectrum>& values, std::size_t count, const
     }
 }
 
-void check_direct(const DirectLight& direct, std::size_t roots, std::size_t patches) {
+void check_ascending(const std::vector<double>& angles, double most, const Place& what) {
+    if (angles.empty()) throw Defect(what.text() + ": none");
+    for (std::size_t i = 0; i < angles.size(); ++i)
+        check_number(angles[i], i == 0 ? 0.0 : std::nextafter(angles[i - 1], infinity), most, what);
+}
+
+void check_photometry(const Photometry& table, const Place& what) {
+    check_text(table.name, what / "photometry name");
+    check_ascending(table.vertical, 180.0, what / "photometry, vertical angle");
+    check_ascending(table.horizontal, 360.0, what / "photometry, horizontal angle");
+    check_count(table.candela.size(), table.vertical.size() * table.horizontal.size(),
+                what / "photometry, candela");
+    for (const double value : table.candela)
+        check_number(value, 0.0, infinity, what / "photometry, candela");
+}
+
+void check_lights(const std::vector<PunctualLight>& lights) {
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        const Place what("light", i);
+        check_text(lights[i].name, what / "name");
+        check_index(static_cast<std::size_t>(lights[i].kind), 3, what / "kind");
+        check_vector(lights[i].position, -infinity, what / "position");
+        check_vector(lights[i].direction, -infinity, what / "direction");
+        check_vector(lights[i].up, -infinity, what / "up");
+        check_vector(lights[i].intensity, 0.0, what / "intensity");
+        check_number(lights[i].inner_angle, 0.0, infinity, what / "inner angle");
+        check_number(lights[i].outer_angle, 0.0, infinity, what / "outer angle");
+        if (lights[i].photometry) check_photometry(*lights[i].photometry, what);
+    }
+}
+
+void check_environment(const Environment& environment) {
+    const Place what("environment");
+    check_index(static_cast<std::size_t>(environment.kind), 5, what / "kind");
+    check_vector(environment.radiance_scale, 0.0, what / "radiance scale");
+    check_vector(environment.up, -infinity, what / "up");
+    check_number(environment.rotation, -infinity, infinity, what / "rotation");
+    check_vector(environment.sun, -infinity, what / "sun");
+    const bool has_image = environment.image != nullptr;
+    check_count(has_image, environment.kind == Environment::Kind::image, what / "image");
+    if (!has_image) return;
+    const Texture& image = *environment.image;
+    check_text(image.name, what / "image name");
+    check_index(static_cast<std::size_t>(image.wrap_u), 3, what / "image wrap");
+    check_index(static_cast<std::size_t>(image.wrap_v), 3, what / "image wrap");
+    check_number(image.width, 1, infinity, what / "image width");
+    check_number(image.height, 1, infinity, what / "image height");
+    check_spectra(image.texels, static_cast<std::size_t>(image.width) * image.height,
+                  "environment texel");
+}
+
+void check_direct(const DirectLight& direct, std::size_t roots, std::size_t patches,
+                  std::size_t lights) {
     for (std::size_t i = 0; i < direct.samples.size(); ++i) {
         const LightSample& sample = direct.samples[i];
         const Place what("light sample", i);
         check_vector(sample.position, -infinity, what / "position");
         check_vector(sample.normal, -infinity, what / "normal");
         check_number(sample.area, 0.0, infinity, what / "area");
-        check_vector(sample.radiance, 0.0, what / "radiance");
+        check_vector(sample.emitted, 0.0, what / "emitted");
         check_index(sample.root, roots, what / "root");
+        check_index(static_cast<std::size_t>(sample.kind), 3, what / "kind");
+        if (sample.kind != LightSample::Kind::area)
+            check_index(sample.light, lights, what / "light");
     }
     const std::size_t entries = patches * direct.samples.size();
-    check_table(direct.projected_solid_angle, entries, infinity, "projected solid angle, entry");
+    check_table(direct.geometry_factor, entries, infinity, "geometry factor, entry");
     check_table(direct.visibility, entries, one_and_rounding, "visibility, entry");
     if (!direct.shot_sides.empty()) check_count(direct.shot_sides.size(), 2 * roots, "shot sides");
     for (std::size_t i = 0; i < direct.shot_sides.size(); ++i) {
@@ -209,7 +265,9 @@ std::string find_defect(const Solution& solution) try {
     const std::size_t patches = solution.patches.patch_count();
     check_surface(solution.surface);
     check_hierarchy(solution.patches, roots);
-    check_direct(solution.direct, roots, patches);
+    check_lights(solution.lighting.lights);
+    check_environment(solution.lighting.environment);
+    check_direct(solution.direct, roots, patches, solution.lighting.lights.size());
     for (std::size_t i = 0; i < solution.cameras.size(); ++i) {
         check_camera(solution.cameras[i], Place("camera", i));
     }

@@ -65,7 +65,10 @@ Solution load_solution(const Path& path) {
     const PolyData surface = pieces.read("surface");
     read_summary(*surface->GetFieldData(), pieces.file("surface"), solution);
     read_surface_piece(*surface, pieces.file("surface"), solution);
-    read("lights", read_lights_piece, solution.direct);
+    read("lights", read_lights_piece, solution);
+    Environment& environment = solution.lighting.environment;
+    if (environment.kind == Environment::Kind::image)
+        read("environment", read_environment_piece, environment);
     read("radiance", read_radiance_piece, solution);
     if (!solution.direct.samples.empty()) read("incoming", read_incoming_piece, solution);
     if (const std::string defect = find_defect(solution); !defect.empty()) {

@@ -11,6 +11,7 @@ PatchSources make_sources(const Solution& s) {
     sources.direct.resize(n);
     sources.albedo.resize(n);
     sources.glossy = s.glossy;
+    sources.environment = s.lighting.environment;
     const bool reflects_first_shot = !s.glossy.empty() && !s.direct.samples.empty();
     if (reflects_first_shot) sources.first_incoming.push_back(0);
     for (std::uint32_t p = 0; p < n; ++p) {

@@ -16,8 +16,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::array<std::string_view, 5> known_files{"radiance.vtp", "incoming.vtp", "lights.vtp",
-                                                      "surface.vtp", "run.json"};
+constexpr std::array<std::string_view, 6> known_files{
+    "radiance.vtp", "incoming.vtp", "lights.vtp", "environment.vtp", "surface.vtp", "run.json"};
 
 [[noreturn]] void fail(const fs::path& path, const std::string& what, int error) {
     throw IoError(path.string(), what + ": " + std::generic_category().message(error));

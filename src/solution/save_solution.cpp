@@ -36,7 +36,9 @@ NamedBytes format_pieces(const Solution& solution, const Path& folder) {
     const Patches stored = stored_patches(solution);
     add("radiance", radiance_piece(solution, stored));
     if (!solution.direct.samples.empty()) add("incoming", incoming_piece(solution, stored));
-    add("lights", lights_piece(solution.direct));
+    add("lights", lights_piece(solution));
+    const Environment& environment = solution.lighting.environment;
+    if (environment.image) add("environment", environment_piece(*environment.image));
     const PolyData surface = surface_piece(solution);
     add_summary(solution, *surface->GetFieldData());
     add("surface", surface);

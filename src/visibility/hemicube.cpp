@@ -5,6 +5,8 @@
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -78,7 +80,8 @@ Hemicube::Hemicube(const SurfaceMesh& mesh, const PatchHierarchy& patches, int r
     if (resolution < 16 || resolution > 4096 || resolution % 2 != 0)
         throw UsageError("hemicube resolution " + std::to_string(resolution) +
                          "; accepted: 16 to 4096, even");
-    pixels_.resize(5);
+    pixels_.resize(6);
+    weights_.resize(6);
 }
 
 Hemicube::~Hemicube() = default;
@@ -86,24 +89,68 @@ Hemicube::~Hemicube() = default;
 const std::vector<PatchView>& Hemicube::look(const glm::dvec3& position, const glm::dmat3& frame) {
     position_ = position;
     frame_ = frame;
+    distribution_ = nullptr;
     const double pixel = 2.0 / resolution_;
     const glm::dvec3 &x = frame[0], &y = frame[1], &z = frame[2];
     const int half = resolution_ / 2;
-    faces_ = {{x, y, z, z, resolution_, resolution_, -1.0, pixel},
-              {y, z, x, z, resolution_, half, 0.0, pixel},
-              {-y, z, -x, z, resolution_, half, 0.0, pixel},
-              {-x, z, y, z, resolution_, half, 0.0, pixel},
-              {x, z, -y, z, resolution_, half, 0.0, pixel}};
+    return look_through({{x, y, z, z, resolution_, resolution_, -1.0, pixel},
+                         {y, z, x, z, resolution_, half, 0.0, pixel},
+                         {-y, z, -x, z, resolution_, half, 0.0, pixel},
+                         {-x, z, y, z, resolution_, half, 0.0, pixel},
+                         {x, z, -y, z, resolution_, half, 0.0, pixel}});
+}
+
+const std::vector<PatchView>& Hemicube::look_around(const glm::dvec3& position,
+                                                    const glm::dmat3& frame,
+                                                    const Distribution& distribution) {
+    position_ = position;
+    frame_ = frame;
+    distribution_ = &distribution;
+    const double pixel = 2.0 / resolution_;
+    const glm::dvec3 &x = frame[0], &y = frame[1], &z = frame[2];
+    std::vector<Face> faces;
+    for (const auto& [right, up, forward] :
+         {std::array{x, y, z}, {y, x, -z}, {y, z, x}, {-y, z, -x}, {-x, z, y}, {x, z, -y}})
+        faces.push_back({right, up, forward, z, resolution_, resolution_, -1.0, pixel});
+    const std::vector<PatchView>& views = look_through(std::move(faces));
+    distribution_ = nullptr;
+    return views;
+}
+
+const std::vector<PatchView>& Hemicube::look_through(std::vector<Face> faces) {
+    faces_ = std::move(faces);
     std::fill(sums_.begin(), sums_.end(), PatchSums{});
     for (std::size_t i = 0; i < faces_.size(); ++i) {
         pixels_[i].assign(std::size_t{1} * faces_[i].width * faces_[i].height,
                           {std::numeric_limits<float>::infinity(), nothing});
-        draw_face(faces_[i]);
+        if (distribution_) weigh_pixels(i);
+        // Nothing shines through it: a spot is narrow.
+        const bool is_dark =
+            distribution_ && std::ranges::all_of(weights_[i], [](float w) { return w == 0.0f; });
+        if (!is_dark) draw_face(faces_[i]);
     }
     for (const Face& face : faces_) add_seen(face);
     for (std::uint32_t p = 0; p < sums_.size(); ++p)
         views_[p] = sums_[p].pixels > 0 ? view_of(sums_[p], p) : view_of_missed(p);
     return views_;
+}
+
+/// Solid angle of the pixels times the distribution: pixel^2 / |d|^3.
+void Hemicube::weigh_pixels(std::size_t face) {
+    const Face& f = faces_[face];
+    std::vector<float>& weights = weights_[face];
+    weights.clear();
+    for (int y = 0; y < f.height; ++y)
+        for (int x = 0; x < f.width; ++x) {
+            const glm::dvec3 d = f.towards(x, y);
+            const double squared = glm::dot(d, d), length = std::sqrt(squared);
+            weights.push_back(static_cast<float>((*distribution_)(d / length) * f.pixel * f.pixel /
+                                                 (squared * length)));
+        }
+}
+
+double Hemicube::weight(std::size_t face, std::size_t pixel, const glm::dvec3& d) const {
+    return distribution_ ? double{weights_[face][pixel]} : faces_[face].weight(d);
 }
 
 void Hemicube::draw_face(const Face& face) {
@@ -137,7 +184,8 @@ void Hemicube::draw_root(const Face& face, std::uint32_t root) {
                      to_b2 = glm::cross(area_normal, e1) * per_area;
     const bool back = height > 0.0;
     const std::uint32_t side = back ? patches_.leaf_count : 0;
-    auto& pixels = pixels_[static_cast<std::size_t>(&face - faces_.data())];
+    const auto number = static_cast<std::size_t>(&face - faces_.data());
+    auto& pixels = pixels_[number];
 
     const auto span = [&](std::int32_t y, std::int32_t x0, std::int32_t x1) {
         for (std::int32_t x = x0; x < x1; ++x) {
@@ -151,12 +199,13 @@ void Hemicube::draw_root(const Face& face, std::uint32_t root) {
                                         static_cast<float>(glm::dot(hit, to_b2)));
             const double squared = glm::dot(d, d);
             PatchSums& s = sums_[patch];
+            const std::size_t at = static_cast<std::size_t>(y) * face.width + x;
             ++s.pixels;
-            s.covered += face.weight(d);
+            s.covered += weight(number, at, d);
             // dA = r^2 d(omega) / cos' with r = t |d|, d(omega) = pixel^2 / |d|^3, cos' = |d.n| /
             // |d|
             s.area += face.pixel * face.pixel * t * t / std::abs(glm::dot(d, normal));
-            Pixel& pixel = pixels[static_cast<std::size_t>(y) * face.width + x];
+            Pixel& pixel = pixels[at];
             const auto distance = static_cast<float>(t * std::sqrt(squared));
             if (distance < pixel.distance) pixel = {distance, patch};
         }
@@ -186,11 +235,13 @@ void Hemicube::draw_root(const Face& face, std::uint32_t root) {
 }
 
 void Hemicube::add_seen(const Face& face) {
-    const auto& pixels = pixels_[static_cast<std::size_t>(&face - faces_.data())];
+    const auto number = static_cast<std::size_t>(&face - faces_.data());
+    const auto& pixels = pixels_[number];
     for (int y = 0; y < face.height; ++y)
         for (int x = 0; x < face.width; ++x) {
-            const Pixel& pixel = pixels[static_cast<std::size_t>(y) * face.width + x];
-            if (pixel.patch != nothing) sums_[pixel.patch].seen += face.weight(face.towards(x, y));
+            const std::size_t at = static_cast<std::size_t>(y) * face.width + x;
+            const std::uint32_t patch = pixels[at].patch;
+            if (patch != nothing) sums_[patch].seen += weight(number, at, face.towards(x, y));
         }
 }
 
@@ -214,12 +265,16 @@ double Hemicube::front_share(std::uint32_t leaf) const {
 }
 
 /// Flux over the patch's area where there are pixels enough, which keeps the flux; else over the
-/// area behind its own pixels: their errors cancel.
+/// area behind its own pixels: their errors cancel. So for a distribution, whose point has no
+/// others beside it to make up for its errors.
 PatchView Hemicube::view_of(const PatchSums& sums, std::uint32_t patch) const {
     const std::uint32_t leaf = patches_.leaf_of_patch(patch);
-    const double kernel = sums.pixels >= enough_pixels
-                              ? sums.covered / area_of_leaf(mesh_, patches_, leaf)
-                              : sums.covered / sums.area * front_share(leaf);
+    const double kernel =
+        distribution_ ? sums.covered / sums.area
+        : sums.pixels >= enough_pixels
+            ? sums.covered / area_of_leaf(mesh_, patches_, leaf)
+            : sums.covered / sums.area * front_share(leaf);
+    if (!(sums.covered > 0.0)) return {};
     return {static_cast<float>(kernel),
             static_cast<float>(std::min(1.0, sums.seen / sums.covered))};
 }
@@ -227,13 +282,13 @@ PatchView Hemicube::view_of(const PatchSums& sums, std::uint32_t patch) const {
 /// A patch between pixel centres: its centre, looked up in the nearest pixel.
 PatchView Hemicube::view_of_missed(std::uint32_t patch) const {
     const std::uint32_t leaf = patches_.leaf_of_patch(patch), root = patches_.root_of_leaf[leaf];
-    glm::dvec3 centre(0.0);
-    for (const glm::dvec3& corner : points_of_leaf(mesh_, patches_, leaf)) centre += corner / 3.0;
-    const glm::dvec3 d = centre - position_;
-    const double up = glm::dot(d, frame_[2]);
+    const glm::dvec3 d = leaf_centre(mesh_, patches_, leaf) - position_;
+    const double squared = glm::dot(d, d), distance = std::sqrt(squared);
+    const double up =
+        distribution_ ? distance * (*distribution_)(d / distance) : glm::dot(d, frame_[2]);
     const double facing =
         glm::dot(d, normal_of(mesh_, root)) * (patches_.is_back(patch) ? 1.0 : -1.0);
-    if (up <= rounding * glm::length(d) || facing <= rounding * glm::length(d)) return {};
+    if (up <= rounding * distance || facing <= rounding * distance) return {};
     for (std::size_t i = 0; i < faces_.size(); ++i) {
         const Face& face = faces_[i];
         const double forward = glm::dot(d, face.forward);
@@ -243,7 +298,6 @@ PatchView Hemicube::view_of_missed(std::uint32_t patch) const {
         if (x < 0.0 || y < 0.0 || x >= face.width || y >= face.height) continue;
         const Pixel& pixel =
             pixels_[i][static_cast<std::size_t>(y) * face.width + static_cast<std::size_t>(x)];
-        const double squared = glm::dot(d, d), distance = std::sqrt(squared);
         // Within a pixel's width of what is seen there.
         const bool seen = distance <= pixel.distance * (1.0 + face.pixel);
         return {static_cast<float>(up * facing / (squared * squared)), seen ? 1.0f : 0.0f};

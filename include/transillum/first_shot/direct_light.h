@@ -1,7 +1,9 @@
-/// Direct light of small emitters, kept as incoming radiance (paper §4, "incoming first shot").
+/// Direct light of small emitters, kept as incoming radiance (paper §4, "incoming first shot"), and
+/// of lights without extent.
 #pragma once
 
 #include <transillum/base/spectrum.h>
+#include <transillum/scene/lighting.h>
 
 #include <glm/vec3.hpp>
 
@@ -10,27 +12,52 @@
 
 namespace transillum {
 
-/// A point that stands for a piece of an emitter.
+/// A point that stands for a piece of an emitter, or a light without extent.
 struct LightSample {
-    glm::dvec3 position{0.0};
-    glm::dvec3 normal{0.0, 0.0, 1.0};  ///< unit; light leaves on this side
-    double area = 0.0;                 ///< of the piece [square scene units]
-    Spectrum radiance{0.0f};           ///< emitted [W sr^-1 m^-2]
-    std::uint32_t root = 0;            ///< root triangle it lies on
-    bool back = false;                 ///< it lies on that triangle's back
+    enum class Kind : std::uint8_t {
+        area,        ///< a piece of an emitting surface
+        point,       ///< a point or spot light, with or without photometry
+        directional  ///< a light from infinitely far
+    };
+    glm::dvec3 position{0.0};          ///< directional: no meaning
+    glm::dvec3 normal{0.0, 0.0, 1.0};  ///< unit; area: light leaves on this side; point: the axis;
+                                       ///< directional: the way light travels
+    double area = 0.0;                 ///< of the piece [square scene units]; else 0
+    /// area: emitted radiance [W sr^-1 m^-2]; point: PunctualLight::intensity [W sr^-1];
+    /// directional: irradiance of a surface that faces it [W m^-2]
+    Spectrum emitted{0.0f};
+    std::uint32_t root = 0;  ///< area: root triangle it lies on
+    bool back = false;       ///< area: it lies on that triangle's back
+    Kind kind = Kind::area;
+    std::uint32_t light = 0;  ///< else: index into Lighting::lights
 };
 
 /// What arrives at the patches from the light samples. Row-major, one row a patch:
 /// entry [patch * samples.size() + sample].
-/// Irradiance of a patch = sum over samples of radiance * visibility * projected_solid_angle.
+/// Irradiance of a patch = sum over samples of emitted * visibility * geometry_factor.
 struct DirectLight {
     std::vector<LightSample> samples;  ///< empty where no emitter needs a first shot
-    std::vector<float>
-        projected_solid_angle;      ///< area * cos * cos' / r^2, patch mean, as if unoccluded [sr]
+    /// Patch mean, as if unoccluded, of, cos at the sample, cos' at the patch:
+    /// area: area * cos * cos' / r^2, the projected solid angle [sr];
+    /// point: PunctualLight::distribution * cos' / r^2 [sr / square scene unit];
+    /// directional: cos' [1].
+    std::vector<float> geometry_factor;
     std::vector<float> visibility;  ///< seen share of that [0, 1]
     /// Per root triangle and side (2 * root + back): its emission travels by first shot, so the
     /// iteration leaves it out.
     std::vector<std::uint8_t> shot_sides;
 };
+
+/// What a light sample sends to a point, as if unoccluded.
+struct Incident {
+    glm::dvec3 direction{0.0, 0.0, 1.0};  ///< unit, to the light
+    double distance = 0.0;                ///< to the light; infinite: directional
+    Spectrum irradiance{0.0f};  ///< of a surface at the point that faces the light [W m^-2]
+};
+
+/// Nothing comes from an area sample behind it, nor to the very place of a light.
+/// \pre the sample's light is one of `lighting`.
+[[nodiscard]] Incident incident_light(const LightSample& sample, const Lighting& lighting,
+                                      const glm::dvec3& point);
 
 }  // namespace transillum

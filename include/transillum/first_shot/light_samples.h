@@ -1,4 +1,5 @@
-/// Which emitters get a first shot, and the points that stand for them (paper §4).
+/// Which emitters get a first shot, and the points that stand for them (paper §4). Lights without
+/// extent always do: no direction of the iteration would meet them.
 #pragma once
 
 #include <transillum/first_shot/direct_light.h>
@@ -11,7 +12,7 @@ namespace transillum {
 
 enum class FirstShot {
     automatic,  ///< small luminaires; large ones are cheaper in the iteration
-    off,        ///< none: all light travels by iteration
+    off,        ///< none: all light of surfaces travels by iteration
     hemicube    ///< every emitter
 };
 
@@ -24,16 +25,23 @@ struct LightSampleOptions {
 };
 
 /// Emitting root sides that touch each other and share a material form a luminaire. Samples are
-/// stratified over its area; each stands for an equal piece of it.
+/// stratified over its area; each stands for an equal piece of it. A light without extent has one
+/// sample; those come last.
 struct Luminaires {
     std::uint32_t count = 0, shot = 0;  ///< all, and those with samples
     double largest_share = 0.0;         ///< of the scene's surface, among those without samples
     std::vector<LightSample> samples;
     std::vector<std::uint8_t> shot_sides;  ///< see DirectLight
+    std::vector<PunctualLight> lights;     ///< as given: what LightSample::light counts into
+    std::uint64_t seed = 1;                ///< as given, for turning the hemicubes
 };
 
 /// \throws UsageError for a count outside its range.
 [[nodiscard]] Luminaires sample_luminaires(const SurfaceMesh& mesh,
-                                           const LightSampleOptions& options);
+                                           const LightSampleOptions& options,
+                                           const std::vector<PunctualLight>& lights = {});
+
+/// Memory [bytes] that the samples of a first shot will take on so many patches.
+[[nodiscard]] std::uint64_t first_shot_bytes(std::size_t samples, std::uint64_t patches);
 
 }  // namespace transillum

@@ -30,6 +30,8 @@ struct PunctualLight {
     [[nodiscard]] double distribution(const glm::dvec3& direction) const;
     /// Radiant intensity [W sr^-1] of a point or spot towards a unit direction.
     [[nodiscard]] Spectrum intensity_towards(const glm::dvec3& direction) const;
+    /// Flux that a point or spot sends out [W]; 0 of a directional light.
+    [[nodiscard]] SpectrumSum flux() const;
 };
 
 }  // namespace transillum

@@ -5,6 +5,7 @@
 #include <transillum/first_shot/direct_light.h>
 #include <transillum/geometry/patch_hierarchy.h>
 #include <transillum/geometry/surface_mesh.h>
+#include <transillum/scene/lighting.h>
 #include <transillum/transport/glossy_sides.h>
 
 #include <cstdint>
@@ -23,7 +24,7 @@ struct Decision {
 /// Total flux [W] (radiance unit * sr * square scene units) by where it went.
 struct EnergyBalance {
     SpectrumSum emitted{0.0};   ///< by all emitters
-    SpectrumSum entered{0.0};   ///< from the environment
+    SpectrumSum entered{0.0};   ///< from the environment and lights without extent
     SpectrumSum absorbed{0.0};  ///< by patches
     SpectrumSum escaped{0.0};   ///< out of the scene (estimate of the iteration and the first shot)
     SpectrumSum black_backs{
@@ -35,6 +36,7 @@ struct Solution {
     PatchHierarchy patches;
     DirectLight direct;
     GlossySides glossy;
+    Lighting lighting;  ///< what `direct` samples beside the surface, and the environment
     std::vector<Camera> cameras;
 
     // One a patch (PatchHierarchy: fronts, then backs). Sides that neither reflect nor emit hold

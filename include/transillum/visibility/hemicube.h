@@ -8,9 +8,13 @@
 #include <glm/mat3x3.hpp>
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace transillum {
+
+/// Relative strength of a point's light towards a unit direction, not negative.
+using Distribution = std::function<double(const glm::dvec3& direction)>;
 
 /// A small surface element, seen from a point of unit area density: geometry only.
 struct PatchView {
@@ -33,6 +37,11 @@ public:
     /// visibility over them is the cosine-weighted solid angle (at most pi) under which they are
     /// seen.
     const std::vector<PatchView>& look(const glm::dvec3& position, const glm::dmat3& frame);
+    /// The view all around a point in free space, through a cube: two hemicubes back to back. The
+    /// distribution takes the place of the cosine at the point, so that with 1 the sum is the solid
+    /// angle (at most 4 pi) but for the error of each patch, which is small.
+    const std::vector<PatchView>& look_around(const glm::dvec3& position, const glm::dmat3& frame,
+                                              const Distribution& distribution);
 
 private:
     struct Face;
@@ -48,6 +57,9 @@ private:
         std::uint32_t patch;
     };
 
+    const std::vector<PatchView>& look_through(std::vector<Face> faces);
+    void weigh_pixels(std::size_t face);
+    double weight(std::size_t face, std::size_t pixel, const glm::dvec3& d) const;
     void draw_face(const Face& face);
     void draw_root(const Face& face, std::uint32_t root);
     void add_seen(const Face& face);
@@ -61,7 +73,10 @@ private:
     glm::dvec3 position_{0.0};
     glm::dmat3 frame_{1.0};
     std::vector<Face> faces_;
-    std::vector<std::vector<Pixel>> pixels_;  ///< one a face
+    std::vector<std::vector<Pixel>> pixels_;      ///< one a face
+    const Distribution* distribution_ = nullptr;  ///< none: the cosine to the axis
+    std::vector<std::vector<float>>
+        weights_;  ///< of pixels, by face, where there is a distribution
     std::vector<PatchSums> sums_;
     std::vector<PatchView> views_;
 };

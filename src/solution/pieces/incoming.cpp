@@ -38,7 +38,7 @@ PolyData incoming_piece(const Solution& solution, const Patches& stored) {
     vtkCellData& cells = *piece->GetCellData();
     const DirectLight& direct = solution.direct;
     const std::size_t columns = direct.samples.size();
-    add_rows(cells, "ProjectedSolidAngle", direct.projected_solid_angle, columns, stored);
+    add_rows(cells, "GeometryFactor", direct.geometry_factor, columns, stored);
     add_rows(cells, "Visibility", direct.visibility, columns, stored);
     return piece;
 }
@@ -49,7 +49,7 @@ void read_incoming_piece(vtkPolyData& piece, const Path& file, Solution& solutio
     DirectLight& direct = solution.direct;
     const std::uint32_t rows = solution.patches.patch_count();
     const std::size_t columns = direct.samples.size();
-    direct.projected_solid_angle = read_rows(reader, "ProjectedSolidAngle", columns, stored, rows);
+    direct.geometry_factor = read_rows(reader, "GeometryFactor", columns, stored, rows);
     direct.visibility = read_rows(reader, "Visibility", columns, stored, rows);
 }
 

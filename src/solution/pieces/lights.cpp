@@ -1,6 +1,5 @@
+#include "members.h"
 #include "pieces.h"
-
-#include "solution/vtk_arrays.h"
 
 #include <vtkCellArray.h>
 #include <vtkNew.h>
@@ -9,8 +8,23 @@
 
 namespace transillum {
 
-PolyData lights_piece(const DirectLight& direct) {
-    const std::vector<LightSample>& samples = direct.samples;
+namespace {
+
+template <class Each>
+void for_sample_members(Each each) {
+    each("Normal", &LightSample::normal);
+    each("Area", &LightSample::area);
+    each("Emitted", &LightSample::emitted);
+    each("Root", &LightSample::root);
+    each("Back", &LightSample::back);
+    each("Kind", &LightSample::kind);
+    each("Light", &LightSample::light);
+}
+
+}  // namespace
+
+PolyData lights_piece(const Solution& solution) {
+    const std::vector<LightSample>& samples = solution.direct.samples;
     vtkNew<vtkPoints> points;
     points->SetDataTypeToDouble();
     vtkNew<vtkCellArray> vertices;
@@ -24,32 +38,23 @@ PolyData lights_piece(const DirectLight& direct) {
     piece->SetVerts(vertices);
 
     vtkFieldData& data = *piece->GetPointData();
-    const auto add = [&](const char* name, auto LightSample::*member) {
-        add_array(data, name, samples.size(), [&](std::size_t i) { return samples[i].*member; });
-    };
-    add("Normal", &LightSample::normal);
-    add("Area", &LightSample::area);
-    add("Radiance", &LightSample::radiance);
-    add("Root", &LightSample::root);
-    add_array(data, "Back", samples.size(),
-              [&](std::size_t i) { return std::uint8_t{samples[i].back}; });
+    for_sample_members(
+        [&](const char* name, auto member) { add_member(data, name, samples, member); });
+    add_lighting(solution.lighting, *piece->GetFieldData());
     return piece;
 }
 
-void read_lights_piece(vtkPolyData& piece, const Path& file, DirectLight& direct) {
-    const auto count = static_cast<std::size_t>(piece.GetNumberOfPoints());
-    const ArrayReader reader{*piece.GetPointData(), file};
-    const auto normals = reader.read<glm::dvec3>("Normal", count);
-    const auto areas = reader.read<double>("Area", count);
-    const auto radiances = reader.read<Spectrum>("Radiance", count);
-    const auto roots = reader.read<std::uint32_t>("Root", count);
-    const auto backs = reader.read_flags("Back", count);
-    direct.samples.resize(count);
-    for (std::size_t i = 0; i < count; ++i) {
+void read_lights_piece(vtkPolyData& piece, const Path& file, Solution& solution) {
+    std::vector<LightSample>& samples = solution.direct.samples;
+    samples.resize(static_cast<std::size_t>(piece.GetNumberOfPoints()));
+    for (std::size_t i = 0; i < samples.size(); ++i) {
         const double* p = piece.GetPoint(static_cast<vtkIdType>(i));
-        direct.samples[i] = {{p[0], p[1], p[2]}, normals[i], areas[i],
-                             radiances[i],       roots[i],   backs[i] != 0};
+        samples[i].position = {p[0], p[1], p[2]};
     }
+    const ArrayReader reader{*piece.GetPointData(), file};
+    for_sample_members(
+        [&](const char* name, auto member) { read_member(reader, name, samples, member); });
+    read_lighting(*piece.GetFieldData(), file, solution.lighting);
 }
 
 }  // namespace transillum

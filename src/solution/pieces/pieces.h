@@ -26,8 +26,18 @@ void read_surface_piece(vtkPolyData& piece, const Path& file, Solution& solution
 void add_summary(const Solution& solution, vtkFieldData& fields);
 void read_summary(vtkFieldData& fields, const Path& file, Solution& solution);
 
-[[nodiscard]] PolyData lights_piece(const DirectLight& direct);
-void read_lights_piece(vtkPolyData& piece, const Path& file, DirectLight& direct);
+/// Light samples, and as field data the lights without extent and the environment but for its
+/// image.
+[[nodiscard]] PolyData lights_piece(const Solution& solution);
+/// Fills `direct.samples` and `lighting`.
+void read_lights_piece(vtkPolyData& piece, const Path& file, Solution& solution);
+
+void add_lighting(const Lighting& lighting, vtkFieldData& fields);
+void read_lighting(vtkFieldData& fields, const Path& file, Lighting& lighting);
+
+/// The environment's image, where there is one.
+[[nodiscard]] PolyData environment_piece(const Texture& image);
+void read_environment_piece(vtkPolyData& piece, const Path& file, Environment& environment);
 
 /// What a person looks at, a cell a stored patch.
 [[nodiscard]] PolyData radiance_piece(const Solution& solution, const Patches& stored);

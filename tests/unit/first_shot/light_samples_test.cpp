@@ -43,7 +43,7 @@ void expect_on_their_roots(const SurfaceMesh& mesh, const Luminaires& l) {
             EXPECT_GT(glm::dot(glm::cross(edge, s.position - mesh.positions[v[i]]), n), 0.0);
         }
         EXPECT_EQ(s.normal, s.back ? -n : n);
-        EXPECT_EQ(s.radiance, mesh.materials[mesh.triangles[s.root].material].emission);
+        EXPECT_EQ(s.emitted, mesh.materials[mesh.triangles[s.root].material].emission);
         EXPECT_EQ(l.shot_sides[2 * s.root + (s.back ? 1 : 0)], 1);
     }
 }

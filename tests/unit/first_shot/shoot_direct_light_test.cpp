@@ -181,7 +181,7 @@ TEST(ShootDirectLight, DoesNotDependOnTheNumberOfWorkers) {
     for (const int threads : {2, 8}) {
         const Lit many =
             shoot(builder, {.level = 2, .samples = 32, .resolution = 64, .threads = threads});
-        EXPECT_EQ(one.light.projected_solid_angle, many.light.projected_solid_angle);
+        EXPECT_EQ(one.light.geometry_factor, many.light.geometry_factor);
         EXPECT_EQ(one.light.visibility, many.light.visibility);
         EXPECT_EQ(one.irradiance, many.irradiance);
     }
@@ -222,7 +222,7 @@ TEST(ShootDirectLight, NoSamplesGiveNoLight) {
     SceneBuilder builder;
     builder.box({-1, -1, 0}, {1, 1, 1.5}, Facing::inwards);
     const Lit lit = shoot(builder, {});
-    EXPECT_TRUE(lit.light.projected_solid_angle.empty());
+    EXPECT_TRUE(lit.light.geometry_factor.empty());
     for (const Spectrum& e : lit.irradiance) EXPECT_EQ(e, Spectrum(0.0f));
 }
 

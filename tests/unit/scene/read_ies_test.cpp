@@ -233,8 +233,16 @@ TEST(PunctualLight, SpotsFadeBetweenTheirAngles) {
     const double middle = std::acos(0.5 * (std::cos(0.3) + std::cos(0.6)));
     EXPECT_NEAR(at(middle), 0.25, 1e-12);
     EXPECT_EQ(spot.intensity_towards({0, 0, -1}), Spectrum(8.0f));
+    double sum = 0.0;
+    constexpr int steps = 10000;
+    for (int i = 0; i < steps; ++i) {
+        const double angle = 0.7 * (i + 0.5) / steps;
+        sum += 2.0 * pi * at(angle) * std::sin(angle) * 0.7 / steps;
+    }
+    EXPECT_NEAR(spot.flux().x, 8.0 * sum, 1e-6);
     spot.kind = PunctualLight::Kind::point;
     EXPECT_EQ(at(3.0), 1.0);
+    EXPECT_DOUBLE_EQ(spot.flux().y, 32.0 * pi);
 }
 
 }  // namespace

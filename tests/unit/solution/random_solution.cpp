@@ -1,6 +1,7 @@
 #include "random_solution.h"
 
 #include "support/random_hierarchy.h"
+#include <transillum/scene/photometry.h>
 
 #include <gtest/gtest.h>
 
@@ -78,11 +79,61 @@ SurfaceMesh random_surface(Dice& dice, const Shape& shape) {
     return mesh;
 }
 
+std::shared_ptr<Photometry> random_photometry(Dice& dice) {
+    auto table = std::make_shared<Photometry>();
+    table->name = dice.text();
+    table->vertical = {0.0, 90.0 * dice.number(), 90.0};
+    table->horizontal = {0.0, 180.0};
+    for (int i = 0; i < 6; ++i) table->candela.push_back(1000.0 * dice.number());
+    return table;
+}
+
+/// Two lights share a table.
+Lighting random_lighting(Dice& dice, const Shape& shape) {
+    Lighting lighting;
+    const auto table = random_photometry(dice);
+    for (int i = 0; i < shape.lights; ++i) {
+        PunctualLight light;
+        light.name = dice.text();
+        light.kind = static_cast<PunctualLight::Kind>(dice.below(3));
+        light.position = dice.point();
+        light.direction = dice.point();
+        light.up = dice.point();
+        light.intensity = dice.spectrum();
+        light.inner_angle = dice.number();
+        light.outer_angle = dice.number();
+        if (i % 4 == 3) light.photometry = random_photometry(dice);
+        if (i % 4 == 1 || i % 4 == 2) light.photometry = table;
+        lighting.lights.push_back(light);
+    }
+    Environment& environment = lighting.environment;
+    environment.kind = shape.environment;
+    environment.radiance_scale = dice.spectrum();
+    environment.up = dice.point();
+    environment.rotation = dice.number();
+    environment.sun = dice.point();
+    if (shape.environment != Environment::Kind::image) return lighting;
+    auto image = std::make_shared<Texture>();
+    image->name = dice.text();
+    image->width = 5;
+    image->height = 3;
+    image->wrap_v = static_cast<Texture::Wrap>(dice.below(3));
+    for (int i = 0; i < 15; ++i) image->texels.push_back(1e5f * dice.spectrum());
+    environment.image = image;
+    return lighting;
+}
+
 void add_lights(Dice& dice, const Shape& shape, Solution& solution) {
     const std::size_t roots = shape.levels.size();
+    solution.lighting = random_lighting(dice, shape);
     for (int i = 0; i < shape.light_samples; ++i) {
-        solution.direct.samples.push_back({dice.point(), glm::dvec3(0.6, 0.0, -0.8), dice.number(),
-                                           dice.spectrum(), dice.below(roots), dice.below(2) == 0});
+        LightSample sample{dice.point(),    glm::dvec3(0.6, 0.0, -0.8), dice.number(),
+                           dice.spectrum(), dice.below(roots),          dice.below(2) == 0};
+        if (i < shape.lights) {
+            sample.kind = static_cast<LightSample::Kind>(1 + dice.below(2));
+            sample.light = static_cast<std::uint32_t>(i);
+        }
+        solution.direct.samples.push_back(sample);
     }
     for (std::size_t i = 0; i < 2 * roots && shape.light_samples > 0; ++i) {
         solution.direct.shot_sides.push_back(static_cast<std::uint8_t>(dice.below(2)));
@@ -102,7 +153,7 @@ void light_patch(Dice& dice, const Shape& shape, Solution& solution, std::uint32
     solution.standard_error.push_back(value());
     solution.coverage.push_back(share());
     for (int i = 0; i < shape.light_samples; ++i) {
-        solution.direct.projected_solid_angle.push_back(share());
+        solution.direct.geometry_factor.push_back(share());
         solution.direct.visibility.push_back(share());
     }
 }
@@ -153,8 +204,20 @@ auto tie_of(const Camera& c) {
     return std::tie(name, eye, look_at, up, fov);
 }
 auto tie_of(const LightSample& s) {
-    const auto& [position, normal, area, radiance, root, back] = s;
-    return std::tie(position, normal, area, radiance, root, back);
+    const auto& [position, normal, area, emitted, root, back, kind, light] = s;
+    return std::tie(position, normal, area, emitted, root, back, kind, light);
+}
+auto tie_of(const PunctualLight& l) {
+    const auto& [name, kind, position, direction, up, intensity, inner, outer, photometry] = l;
+    return std::tie(name, kind, position, direction, up, intensity, inner, outer);
+}
+auto tie_of(const Photometry& p) {
+    const auto& [name, vertical, horizontal, candela] = p;
+    return std::tie(name, vertical, horizontal, candela);
+}
+auto tie_of(const Texture& t) {
+    const auto& [name, width, height, texels, wrap_u, wrap_v] = t;
+    return std::tie(name, width, height, texels, wrap_u, wrap_v);
 }
 auto tie_of(const GlossySide& s) {
     const auto& [root, back, brdf, projection, bin_level, first_patch, leaf_count, first_element] =
@@ -191,11 +254,35 @@ void expect_equal(const SurfaceMesh& a, const SurfaceMesh& b) {
 }
 
 void expect_equal(const DirectLight& a, const DirectLight& b) {
-    const auto& [samples, projected_solid_angle, visibility, shot_sides] = a;
+    const auto& [samples, geometry_factor, visibility, shot_sides] = a;
     expect_equal_structs(samples, b.samples);
-    EXPECT_EQ(projected_solid_angle, b.projected_solid_angle);
+    EXPECT_EQ(geometry_factor, b.geometry_factor);
     EXPECT_EQ(visibility, b.visibility);
     EXPECT_EQ(shot_sides, b.shot_sides);
+}
+
+template <class T>
+void expect_equal_targets(const std::shared_ptr<const T>& a, const std::shared_ptr<const T>& b) {
+    ASSERT_EQ(a == nullptr, b == nullptr);
+    EXPECT_TRUE(!a || tie_of(*a) == tie_of(*b));
+}
+
+void expect_equal(const Lighting& a, const Lighting& b) {
+    const auto& [lights, environment] = a;
+    const auto& [kind, radiance_scale, up, rotation, sun, image] = environment;
+    expect_equal_structs(lights, b.lights);
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        expect_equal_targets(lights[i].photometry, b.lights[i].photometry);
+        for (std::size_t j = 0; j < i; ++j)
+            EXPECT_EQ(lights[i].photometry == lights[j].photometry,
+                      b.lights[i].photometry == b.lights[j].photometry);
+    }
+    EXPECT_EQ(kind, b.environment.kind);
+    EXPECT_EQ(radiance_scale, b.environment.radiance_scale);
+    EXPECT_EQ(up, b.environment.up);
+    EXPECT_EQ(rotation, b.environment.rotation);
+    EXPECT_EQ(sun, b.environment.sun);
+    expect_equal_targets(image, b.environment.image);
 }
 
 }  // namespace
@@ -229,12 +316,14 @@ void expect_equal(const GlossySides& a, const GlossySides& b) {
 }
 
 void expect_equal(const Solution& a, const Solution& b) {
-    const auto& [surface, patches, direct, glossy, cameras, direct_irradiance, indirect_irradiance,
-                 standard_error, coverage, glossy_elements, iterations, seed, relative_error,
+    const auto& [surface, patches, direct, glossy, lighting, cameras, direct_irradiance,
+                 indirect_irradiance, standard_error, coverage, glossy_elements, iterations, seed,
+                 relative_error,
                  interrupted, balance, decisions, settings, scene_hash] = a;
     expect_equal(surface, b.surface);
     EXPECT_TRUE(patches == b.patches);
     expect_equal(direct, b.direct);
+    expect_equal(lighting, b.lighting);
     expect_equal_structs(cameras, b.cameras);
     EXPECT_TRUE(direct_irradiance == b.direct_irradiance);
     EXPECT_TRUE(indirect_irradiance == b.indirect_irradiance);

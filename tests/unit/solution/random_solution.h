@@ -17,6 +17,8 @@ struct Shape {
     bool uvs = false;
     bool one_sided = false;
     bool lit = true;
+    int lights = 0;  ///< without extent
+    Environment::Kind environment = Environment::Kind::none;
 };
 
 /// Patches of dark sides hold zeros, as loading restores them.

@@ -1,6 +1,7 @@
 #include "random_solution.h"
 
 #include <transillum/base/error.h>
+#include <transillum/scene/photometry.h>
 #include <transillum/solution/load_solution.h>
 
 #include <gmock/gmock.h>
@@ -36,7 +37,8 @@ TEST_P(RoundTrip, GivesTheSameBytesAgain) {
     save_solution(solution, {"bake b", 8, {}}, second / "room.vtm");
     save_solution(load_solution(first / "room.vtm"), {}, third / "room.vtm");
     const auto files = without_record(files_below(first));
-    EXPECT_EQ(files.size(), GetParam().light_samples > 0 ? 6u : 5u);
+    const bool has_image = GetParam().environment == Environment::Kind::image;
+    EXPECT_EQ(files.size(), 5u + (GetParam().light_samples > 0) + has_image);
     EXPECT_EQ(files, without_record(files_below(second)));
     EXPECT_EQ(files, without_record(files_below(third)));
 }
@@ -46,6 +48,8 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Shape{}, Shape{.levels = {3}, .light_samples = 1},
                     Shape{.light_samples = 0, .uvs = true}, Shape{.cameras = 0, .one_sided = true},
                     Shape{.levels = {4, 0, 0, 1, 5, 2}, .light_samples = 40, .uvs = true},
+                    Shape{.light_samples = 5, .lights = 5, .environment = Environment::Kind::clear},
+                    Shape{.lights = 2, .environment = Environment::Kind::image},
                     Shape{.lit = false}, Shape{.levels = {}, .light_samples = 0},
                     Shape{.splits = 3}, Shape{.splits = 4, .lit = false},
                     Shape{.levels = {0, 3, 0, 1, 5, 0}, .splits = 2, .light_samples = 1}));
@@ -139,6 +143,21 @@ TEST(Solution, UnsoundIsNotSaved) {
          [](Solution& s) { s.surface.triangles[1].vertices[2] = 99; }},
         {"root 0 material", [](Solution& s) { s.surface.materials.clear(); }},
         {"light sample 0 root", [](Solution& s) { s.direct.samples[0].root = 3; }},
+        {"light sample 1 light: index 4 of 0",
+         [](Solution& s) {
+             s.direct.samples[1].kind = LightSample::Kind::point;
+             s.direct.samples[1].light = 4;
+         }},
+        {"light 0 intensity",
+         [](Solution& s) { s.lighting.lights.resize(1), s.lighting.lights[0].intensity.y = -1; }},
+        {"light 0 photometry, candela: 0 entries, expected 1",
+         [](Solution& s) {
+             s.lighting.lights.resize(1);
+             s.lighting.lights[0].photometry =
+                 std::make_shared<const Photometry>(Photometry{"", {0.0}, {0.0}, {}});
+         }},
+        {"environment image: 0 entries, expected 1",
+         [](Solution& s) { s.lighting.environment.kind = Environment::Kind::image; }},
         {"camera 1 field of view", [](Solution& s) { s.cameras[1].vertical_fov = 180.0; }},
         {"root 1 first leaf", [](Solution& s) { s.patches.roots[1].first_leaf = 2; }},
         {"relative error",

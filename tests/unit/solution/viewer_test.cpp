@@ -80,13 +80,14 @@ TEST(Viewer, SeesTheArrays) {
                                               "Area", "Level", "SourceObject", "SourceFace", "Side",
                                               "Material", "BinOffset", "BinCount", "Root", "Leaf"));
     EXPECT_THAT(array_names(*blocks.pieces["incoming"]->GetCellData()),
-                testing::IsSupersetOf({"Visibility", "ProjectedSolidAngle"}));
+                testing::IsSupersetOf({"Visibility", "GeometryFactor"}));
     EXPECT_THAT(array_names(*blocks.pieces["lights"]->GetPointData()),
-                testing::UnorderedElementsAre("Normal", "Area", "Radiance", "Root", "Back"));
-    EXPECT_THAT(array_names(*blocks.pieces["surface"]->GetCellData()),
-                testing::UnorderedElementsAre("Normals", "UVs", "Material", "SourceObject",
-                                              "SourceFace", "Level", "LeafCount", "Fans",
-                                              "FirstShotFront", "FirstShotBack"));
+                testing::UnorderedElementsAre("Normal", "Area", "Emitted", "Root", "Back", "Kind",
+                                              "Light"));
+    EXPECT_THAT(
+        array_names(*blocks.pieces["surface"]->GetCellData()),
+        testing::UnorderedElementsAre("Normals", "UVs", "Material", "SourceObject", "SourceFace",
+                                      "Level", "LeafCount", "Fans", "FirstShotFront", "FirstShotBack"));
     EXPECT_THAT(array_names(*blocks.pieces["surface"]->GetFieldData()),
                 testing::IsSupersetOf({"FormatVersion", "ProgramVersion", "Units", "SceneHash",
                                        "Iterations", "Seed", "MaterialDiffuse", "CameraEye"}));

@@ -283,5 +283,31 @@ TEST(Hemicube, RefusesResolutionsItCannotDo) {
     EXPECT_NO_THROW(Hemicube(model.mesh, model.patches, 16));
 }
 
+TEST(Hemicube, SeesAllAroundThroughACube) {
+    SceneBuilder builder;
+    builder.box({-1, -1, -1}, {1, 1, 1}, Facing::inwards);
+    builder.box({0.2, 0.3, 0.1}, {0.6, 0.5, 0.8}, Facing::outwards);
+    const Model model(builder, 2);
+    Random random(5, 1);
+    const glm::dvec3 axis(0, 0, 1), point(-0.2, 0.1, 0.3);
+    const glm::dmat3 frame = turned_frame(axis, random);
+    Hemicube hemicube(model.mesh, model.patches, 256);
+    const auto sum = [&](const std::vector<PatchView>& views) {
+        double seen = 0.0;
+        for (std::uint32_t p = 0; p < model.patches.patch_count(); ++p)
+            seen += area_of_leaf(model.mesh, model.patches, model.patches.leaf_of_patch(p)) *
+                    views[p].mean_kernel * views[p].visibility;
+        return seen;
+    };
+    const auto one = [](const glm::dvec3&) { return 1.0; };
+    EXPECT_NEAR(sum(hemicube.look_around(point, frame, one)), 4.0 * pi, 4e-3 * pi);
+    // The cosine, cut off at the horizon, is the hemicube's own.
+    const auto cosine = [&](const glm::dvec3& d) { return std::max(0.0, glm::dot(d, axis)); };
+    EXPECT_NEAR(sum(hemicube.look_around(point, frame, cosine)), pi, 1e-3 * pi);
+    EXPECT_NEAR(sum(hemicube.look(point, frame)), pi, 1e-3 * pi);
+    const auto none = [](const glm::dvec3&) { return 0.0; };
+    EXPECT_EQ(sum(hemicube.look_around(point, frame, none)), 0.0);
+}
+
 }  // namespace
 }  // namespace transillum
