@@ -30,7 +30,8 @@ int run(ReferenceArguments& a, const Common& common) {
     const Scene scene = read_scene(a.scene, console);
     const SurfaceMesh surface = build_surface(scene, {}, console);
     const Camera camera = make_camera(a.camera, scene.cameras, surface);
-    const Image image = path_trace(surface, camera, a.path_trace, Workers(a.threads), console);
+    const Image image =
+        path_trace(surface, scene.lighting, camera, a.path_trace, Workers(a.threads), console);
     for (const std::string& path : a.image.paths) write_image(image, path, a.image.tone);
     return console.stop_requested() ? ExitCode::interrupted : ExitCode::done;
 }

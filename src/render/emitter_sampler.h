@@ -24,9 +24,9 @@ public:
     [[nodiscard]] bool empty() const { return sides_.empty(); }
     /// \pre not empty
     [[nodiscard]] EmitterPoint sample(glm::vec2 u) const;
-    /// Density per area of a point on a side of that radiance.
-    [[nodiscard]] double density(const Spectrum& radiance) const {
-        return mean_channel(radiance) / total_;
+    /// Density per area of a point on a side; 0 where it is never sampled.
+    [[nodiscard]] double density(std::uint32_t root, bool back) const {
+        return densities_.empty() ? 0.0 : densities_[2 * static_cast<std::size_t>(root) + back];
     }
 
 private:
@@ -38,6 +38,7 @@ private:
     const SurfaceMesh& mesh_;
     std::vector<Side> sides_;
     std::vector<double> cumulative_;  ///< radiance * area up to and with each side
+    std::vector<double> densities_;   ///< front and back of every root; empty without emitters
     double total_ = 0.0;
 };
 

@@ -1,7 +1,8 @@
-// The image of a path tracer. Paths are shared within a tile: what one of them finds at its second
-// surface is gathered by every first surface of the tile that sees it (Bekaert, Sbert and Halton
-// 2002, "Accelerating path tracing by re-using paths"); the balance heuristic keeps every pixel
-// unbiased.
+// The image of a path tracer. Paths are shared within a tile: what one of them finds the diffuse
+// part of its second surface to reflect is gathered by every first surface of the tile that sees it
+// (Bekaert, Sbert and Halton 2002, "Accelerating path tracing by re-using paths"); the balance
+// heuristic keeps every pixel unbiased. What the second surface's lobe reflects depends on where it
+// goes, and stays with the path that found it.
 #include "render/camera_rays.h"
 #include "render/path_tracer.h"
 
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numbers>
 #include <string>
 
@@ -36,27 +38,47 @@ struct Tile {
     int count = 0;
 };
 
+/// The second surface of a path, seen from a first one.
+struct Sight {
+    double density = 0.0;   ///< per area, with which that path finds the point; 0 where unseen
+    Spectrum weight{0.0f};  ///< of the point's light, with its coupling, before the density
+};
+
+Sight sight(const PathVertex& first, const PathVertex& second) {
+    const glm::dvec3 way = second.point - first.point;
+    const double distance2 = glm::dot(way, way);
+    const glm::dvec3 direction = way / std::sqrt(distance2);
+    const double cosine = -glm::dot(second.normal, direction);
+    if (!(cosine > 0.0 && glm::dot(first.normal, direction) > 0.0)) return {};
+    const glm::vec3 in = first.local(direction);
+    const double per_area = cosine / distance2;
+    const double density = direction_density(first.brdf, in, first.out) * per_area;
+    if (!(density > 0.0)) return {};
+    const float coupling = diffuse_coupling(second.brdf, static_cast<float>(cosine));
+    return {density,
+            evaluate(first.brdf, in, first.out) * (in.z * coupling * static_cast<float>(per_area))};
+}
+
 /// Adds what every first surface reflects of the light from the second surface of `paths[source]`:
-/// albedo_i * L * G_i / sum_k G_k, where G_k / pi is the density with which path k finds that
-/// point.
+/// over the sum of the densities with which the tile's paths find that point.
 void share_second_surface(const PathTracer& tracer, const Tile& tile, int source,
                           std::vector<PixelSum>& sums) {
     const EyePath& from = tile.paths[source].path;
     if (!(max_channel(from.from_second) > 0.0f)) return;
-    std::array<double, tile_size * tile_size> couplings{};
+    std::array<Sight, tile_size * tile_size> sights{};
     double total = 0.0;
     for (int i = 0; i < tile.count; ++i) {
         const EyePath& to = tile.paths[i].path;
-        if (!(max_channel(to.albedo) > 0.0f)) continue;
-        couplings[i] = coupling(to.first, from.second);
-        if (i != source && couplings[i] > 0.0 && !tracer.sees(to.first, from.second))
-            couplings[i] = 0.0;
-        total += couplings[i];
+        if (!to.reflects) continue;
+        sights[i] = sight(to.first, from.second);
+        if (i != source && sights[i].density > 0.0 && !tracer.sees(to.first, from.second))
+            sights[i] = {};
+        total += sights[i].density;
     }
     if (!(total > 0.0)) return;
     for (int i = 0; i < tile.count; ++i)
         sums[tile.paths[i].pixel].radiance +=
-            SpectrumSum(tile.paths[i].path.albedo * from.from_second) * (couplings[i] / total);
+            SpectrumSum(from.from_second * sights[i].weight) / total;
 }
 
 /// The tiles of one pass. They are moved from pass to pass, so that their outlines do not show.
@@ -90,7 +112,7 @@ void trace_tile(const PathTracer& tracer, const CameraRays& view, const Tiling& 
         PixelPath& p = tile.paths[tile.count++];
         p = {pixel,
              tracer.start({view.eye(), view.direction(x + double(u.x), y + double(u.y))}, random)};
-        sums[pixel].radiance += SpectrumSum(p.path.emitted + p.path.direct);
+        sums[pixel].radiance += SpectrumSum(p.path.emitted + p.path.direct + p.path.from_lobe);
         sums[pixel].on_emitter += max_channel(p.path.emitted) > 0.0f;
     });
     for (int i = 0; i < tile.count; ++i) share_second_surface(tracer, tile, i, sums);
@@ -116,11 +138,11 @@ Image mean_image(const std::vector<PixelSum>& sums, int samples, int width, int 
 
 }  // namespace
 
-Image path_trace(const SurfaceMesh& surface, const Camera& camera, const PathTraceOptions& options,
-                 const Workers& workers, Monitor& monitor) {
+Image path_trace(const SurfaceMesh& surface, const Lighting& lighting, const Camera& camera,
+                 const PathTraceOptions& options, const Workers& workers, Monitor& monitor) {
     check_options(options);
     const CameraRays view(camera, options.width, options.height);
-    const PathTracer tracer(surface, options.max_bounces);
+    const PathTracer tracer(surface, lighting, options.max_bounces);
     std::vector<PixelSum> sums(static_cast<std::size_t>(options.width) * options.height);
     if (tracer.dark()) return mean_image(sums, 1, options.width, options.height);
 
@@ -139,16 +161,18 @@ Image path_trace(const SurfaceMesh& surface, const Camera& camera, const PathTra
     return mean_image(sums, done, options.width, options.height);
 }
 
-Spectrum path_trace_irradiance(const SurfaceMesh& surface, const glm::dvec3& point,
-                               const glm::dvec3& normal, int paths, std::uint64_t seed) {
+Spectrum path_trace_irradiance(const SurfaceMesh& surface, const Lighting& lighting,
+                               const glm::dvec3& point, const glm::dvec3& normal, int paths,
+                               std::uint64_t seed) {
     if (paths < 1) throw UsageError("paths: " + std::to_string(paths) + "; accepted: 1 or more");
-    const PathTracer tracer(surface, 0);
+    const PathTracer tracer(surface, lighting, 0);
     if (tracer.dark()) return Spectrum(0.0f);
     SpectrumSum sum(0.0);
+    // A white Lambert surface reflects irradiance / pi.
+    const PathVertex white(point, normal, {.diffuse = Spectrum(1.0f)}, normal);
     for (int i = 0; i < paths; ++i) {
         PixelSampler random(seed, 0, static_cast<std::uint32_t>(i));
-        // A white Lambert surface reflects irradiance / pi.
-        sum += SpectrumSum(tracer.reflected({point, normal}, Spectrum(1.0f), 0, random));
+        sum += SpectrumSum(tracer.reflected(white, 0, random).diffuse);
     }
     return Spectrum(sum * (std::numbers::pi / paths));
 }

@@ -26,8 +26,7 @@ bool above(const glm::vec3& direction) {
 float lobe_chance(const Brdf& brdf, float cos_theta) {
     if (brdf.lobe == Lobe::none) return 0.0f;
     const float lobe = mean_channel(lobe_albedo(brdf, cos_theta));
-    const float diffuse = mean_channel(brdf.diffuse) * diffuse_coupling(brdf, cos_theta);
-    return lobe > 0.0f ? lobe / (lobe + diffuse) : 0.0f;
+    return lobe > 0.0f ? lobe / (lobe + mean_channel(brdf.diffuse)) : 0.0f;
 }
 
 float lobe_density(const Brdf& brdf, const glm::vec3& in, const glm::vec3& out) {
@@ -53,12 +52,14 @@ Brdf brdf_of(const Material& material) {
 }
 
 Spectrum evaluate(const Brdf& brdf, const glm::vec3& in, const glm::vec3& out) {
+    return evaluate_diffuse(brdf, in, out) + evaluate_lobe(brdf, in, out);
+}
+
+Spectrum evaluate_diffuse(const Brdf& brdf, const glm::vec3& in, const glm::vec3& out) {
     if (!above(in) || !above(out)) return Spectrum(0.0f);
-    const Spectrum diffuse = inv_pi * brdf.diffuse;
-    if (brdf.lobe == Lobe::none) return diffuse;
-    if (brdf.lobe == Lobe::max_phong) return diffuse + evaluate_lobe(brdf, in, out);
+    if (brdf.lobe != Lobe::ggx) return inv_pi * brdf.diffuse;
     const float coupling = diffuse_coupling(brdf, in.z) * diffuse_coupling(brdf, out.z);
-    return diffuse * (coupling / mean_diffuse_coupling(brdf)) + evaluate_lobe(brdf, in, out);
+    return brdf.diffuse * (inv_pi * coupling / mean_diffuse_coupling(brdf));
 }
 
 Spectrum evaluate_lobe(const Brdf& brdf, const glm::vec3& in, const glm::vec3& out) {

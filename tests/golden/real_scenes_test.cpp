@@ -82,7 +82,7 @@ TEST_P(RealDataScene, BakesAndLooksAsBrightAsItShould) {
         paths.height = render.height;
         paths.samples = 64;
         expected =
-            median_luminance(path_trace(solution.surface, real.camera, paths, workers, silent));
+            median_luminance(path_trace(solution.surface, {}, real.camera, paths, workers, silent));
     }
     RecordProperty("median", std::to_string(median));
     EXPECT_GT(median / expected, 0.5) << median;

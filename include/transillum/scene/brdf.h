@@ -33,8 +33,10 @@ struct Brdf {
 /// Of the material's uniform values. A lobe that reflects nothing is left out.
 [[nodiscard]] Brdf brdf_of(const Material& material);
 
-/// Values [1 / sr], diffuse part and lobe.
+/// Values [1 / sr]: the whole, and its two parts.
 [[nodiscard]] Spectrum evaluate(const Brdf& brdf, const glm::vec3& in, const glm::vec3& out);
+[[nodiscard]] Spectrum evaluate_diffuse(const Brdf& brdf, const glm::vec3& in,
+                                        const glm::vec3& out);
 [[nodiscard]] Spectrum evaluate_lobe(const Brdf& brdf, const glm::vec3& in, const glm::vec3& out);
 
 /// Share [1] of light from an angle that is reflected: the whole, and by the lobe alone. From
@@ -49,8 +51,9 @@ struct Brdf {
 /// Reflected share of uniform light, both lobes [1].
 [[nodiscard]] Spectrum mean_albedo(const Brdf& brdf);
 
-/// A direction for light to come from, given where it goes: from the diffuse part or the lobe by
-/// their shares of what is reflected. GGX may send it below the surface, where the path ends: the
+/// A direction for light to come from, given where it goes: from the diffuse part or the lobe, by
+/// their albedos (the diffuse one uncoupled, so that at grazing angles, too, it keeps a share that
+/// bounds evaluate_diffuse / density). GGX may send it below the surface, where the path ends: the
 /// density above integrates to what is left. \param choice picks the lobe, in [0, 1)
 [[nodiscard]] glm::vec3 sample_direction(const Brdf& brdf, const glm::vec3& out, float choice,
                                          glm::vec2 u);

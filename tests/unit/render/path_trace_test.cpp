@@ -63,7 +63,7 @@ Estimate mean_irradiance(const SurfaceMesh& mesh, const glm::dvec3& origin, cons
         for (std::uint32_t i = 0; i < 64; ++i) {
             const glm::dvec3 point =
                 origin + sobol_owen(i, 0, replicate) * u + sobol_owen(i, 1, replicate) * v;
-            sum += path_trace_irradiance(mesh, point, normal, 16, 64 * replicate + i).x;
+            sum += path_trace_irradiance(mesh, {}, point, normal, 16, 64 * replicate + i).x;
         }
         e.add(sum / 64);
     }
@@ -79,7 +79,7 @@ TEST_P(Furnace, EveryPixelSeesTheClosedForm) {
     Estimate e;
     for (std::uint64_t seed = 1; seed <= 12; ++seed) {
         const Image image =
-            path_trace(room, camera_in_room(), {24, 16, 16, 0, seed}, Workers(1), silent);
+            path_trace(room, {}, camera_in_room(), {24, 16, 16, 0, seed}, Workers(1), silent);
         double sum = 0.0;
         for (const Spectrum& pixel : image.pixels) sum += pixel.y;
         e.add(sum / static_cast<double>(image.pixels.size()));
@@ -146,13 +146,13 @@ TEST(PathTrace, PointToPolygonLuminaire) {
     const SurfaceMesh mesh = builder.build();
     Estimate e;
     for (std::uint64_t seed = 0; seed < 16; ++seed) {
-        const Spectrum E = path_trace_irradiance(mesh, {0, 0, 0}, {0, 0, 1}, 1024, seed);
+        const Spectrum E = path_trace_irradiance(mesh, {}, {0, 0, 0}, {0, 0, 1}, 1024, seed);
         e.add(E.x);
         EXPECT_FLOAT_EQ(E.y, 2.0f * E.x);
         EXPECT_EQ(E.z, 0.0f);
     }
     expect_estimates(e, 1.740840, 0.001);
-    EXPECT_EQ(path_trace_irradiance(mesh, {0, 0, 2}, {0, 0, -1}, 64, 1), Spectrum(0.0f))
+    EXPECT_EQ(path_trace_irradiance(mesh, {}, {0, 0, 2}, {0, 0, -1}, 64, 1), Spectrum(0.0f))
         << "dark back";
 }
 
@@ -162,7 +162,7 @@ TEST(PathTrace, SidesFollowTheMaterial) {
     builder.quad({{{-1, -1, 1}, {-1, 1, 1}, {1, 1, 1}, {1, -1, 1}}}, lamp, 0);
     builder[lamp].back_emits = true;
     const SurfaceMesh both = builder.build();
-    EXPECT_GT(path_trace_irradiance(both, {0, 0, 2}, {0, 0, -1}, 64, 1).x, 1.0f);
+    EXPECT_GT(path_trace_irradiance(both, {}, {0, 0, 2}, {0, 0, -1}, 64, 1).x, 1.0f);
 
     // The lamp faces the back of the floor.
     SurfaceBuilder room;
@@ -175,24 +175,24 @@ TEST(PathTrace, SidesFollowTheMaterial) {
     camera.look_at = {0, 0, 0};
     camera.up = {0, 1, 0};
     Monitor silent;
-    const Image grey = path_trace(room.build(), camera, {4, 4, 4, 0, 1}, Workers(1), silent);
+    const Image grey = path_trace(room.build(), {}, camera, {4, 4, 4, 0, 1}, Workers(1), silent);
     EXPECT_GT(grey.at(1, 1).x, 0.1f);
     room[white].back_reflects = false;
-    const Image black = path_trace(room.build(), camera, {4, 4, 4, 0, 1}, Workers(1), silent);
+    const Image black = path_trace(room.build(), {}, camera, {4, 4, 4, 0, 1}, Workers(1), silent);
     for (const Spectrum& pixel : black.pixels) EXPECT_EQ(pixel, Spectrum(0.0f));
 }
 
 TEST(PathTrace, WithoutEmittersEverythingIsBlack) {
     Monitor silent;
     const Image image =
-        path_trace(unit_room(0.9f, {}), camera_in_room(), {8, 8, 4, 0, 1}, Workers(2), silent);
+        path_trace(unit_room(0.9f, {}), {}, camera_in_room(), {8, 8, 4, 0, 1}, Workers(2), silent);
     ASSERT_EQ(image.pixels.size(), 64u);
     for (const Spectrum& pixel : image.pixels) EXPECT_EQ(pixel, Spectrum(0.0f));
 }
 
 TEST(PathTrace, MarksEmitters) {
     Monitor silent;
-    const Image image = path_trace(unit_room(0.5f, {1, 0, 0, 0, 0, 0}), camera_in_room(),
+    const Image image = path_trace(unit_room(0.5f, {1, 0, 0, 0, 0, 0}), {}, camera_in_room(),
                                    {32, 32, 4, 1, 1}, Workers(1), silent);
     int marked = 0;
     for (std::size_t i = 0; i < image.pixels.size(); ++i) {
@@ -214,8 +214,8 @@ TEST(PathTrace, BouncesAreBounded) {
     for (int bounces = 1; bounces <= 3; ++bounces) {
         Estimate e;
         for (std::uint64_t seed = 1; seed <= 8; ++seed) {
-            const Image image =
-                path_trace(room, camera_in_room(), {12, 12, 32, bounces, seed}, Workers(1), silent);
+            const Image image = path_trace(room, {}, camera_in_room(), {12, 12, 32, bounces, seed},
+                                           Workers(1), silent);
             double sum = 0.0;
             for (const Spectrum& pixel : image.pixels) sum += pixel.x;
             e.add(sum / 144.0);
@@ -228,9 +228,10 @@ TEST(PathTrace, DoesNotDependOnTheNumberOfThreads) {
     const SurfaceMesh room = unit_room(0.7f, {0, 1, 0, 0, 0, 0});
     Monitor silent;
     const PathTraceOptions options{37, 23, 6, 0, 9};
-    const Image one = path_trace(room, camera_in_room(), options, Workers(1), silent);
+    const Image one = path_trace(room, {}, camera_in_room(), options, Workers(1), silent);
     for (const int threads : {2, 8}) {
-        const Image many = path_trace(room, camera_in_room(), options, Workers(threads), silent);
+        const Image many =
+            path_trace(room, {}, camera_in_room(), options, Workers(threads), silent);
         EXPECT_EQ(many.pixels, one.pixels) << threads << " threads";
         EXPECT_EQ(many.emitter_mask, one.emitter_mask);
     }
@@ -240,21 +241,21 @@ TEST(PathTrace, RefusesSenselessOptions) {
     const SurfaceMesh room = unit_room(0.5f, {});
     Monitor silent;
     const Workers workers(1);
-    EXPECT_THROW((void)path_trace(room, camera_in_room(), {8, 8, 0, 0, 1}, workers, silent),
+    EXPECT_THROW((void)path_trace(room, {}, camera_in_room(), {8, 8, 0, 0, 1}, workers, silent),
                  UsageError);
-    EXPECT_THROW((void)path_trace(room, camera_in_room(), {8, 8, 1, -1, 1}, workers, silent),
+    EXPECT_THROW((void)path_trace(room, {}, camera_in_room(), {8, 8, 1, -1, 1}, workers, silent),
                  UsageError);
-    EXPECT_THROW((void)path_trace(room, camera_in_room(), {0, 8, 1, 0, 1}, workers, silent),
+    EXPECT_THROW((void)path_trace(room, {}, camera_in_room(), {0, 8, 1, 0, 1}, workers, silent),
                  UsageError);
     Camera camera = camera_in_room();
     camera.vertical_fov = 180.0;
-    EXPECT_THROW((void)path_trace(room, camera, {8, 8, 1, 0, 1}, workers, silent), UsageError);
+    EXPECT_THROW((void)path_trace(room, {}, camera, {8, 8, 1, 0, 1}, workers, silent), UsageError);
     camera = camera_in_room();
     camera.up = camera.look_at - camera.eye;
-    EXPECT_THROW((void)path_trace(room, camera, {8, 8, 1, 0, 1}, workers, silent), UsageError);
+    EXPECT_THROW((void)path_trace(room, {}, camera, {8, 8, 1, 0, 1}, workers, silent), UsageError);
     camera = camera_in_room();
     camera.look_at = camera.eye;
-    EXPECT_THROW((void)path_trace(room, camera, {8, 8, 1, 0, 1}, workers, silent), UsageError);
+    EXPECT_THROW((void)path_trace(room, {}, camera, {8, 8, 1, 0, 1}, workers, silent), UsageError);
 }
 
 }  // namespace
