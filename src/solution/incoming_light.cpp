@@ -30,11 +30,13 @@ void append_incoming_light(const Solution& solution, std::uint32_t patch,
     const glm::dmat3 local_from_world = glm::transpose(bin_frame(normal));
     for (std::size_t i = 0; i < n; ++i) {
         const std::size_t entry = patch * n + i;
-        const float factor = light.visibility[entry] * light.projected_solid_angle[entry];
+        const float factor = light.visibility[entry] * light.geometry_factor[entry];
         if (!(factor > 0.0f)) continue;
         const LightSample& sample = light.samples[i];
-        incoming.push_back(
-            {raised(local_from_world * (sample.position - centre)), sample.radiance * factor});
+        const glm::dvec3 direction = sample.kind == LightSample::Kind::directional
+                                         ? -sample.normal
+                                         : sample.position - centre;
+        incoming.push_back({raised(local_from_world * direction), sample.emitted * factor});
     }
 }
 
