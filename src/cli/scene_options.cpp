@@ -29,11 +29,17 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
         ->check(within(0.0, 1.0))
         ->capture_default_str()
         ->group("Scene");
+    add_lighting_options(command, options.lighting);
 }
 
 Scene read_scene(const SceneOptions& options, Monitor& monitor) {
+    const Lighting given = make_lighting(options.lighting, monitor);
     Scene scene = load_scene(options.path, options.load, monitor);
     limit_albedo(scene, options.max_albedo, monitor);
+    auto& lights = scene.lighting.lights;
+    lights.insert(lights.end(), given.lights.begin(), given.lights.end());
+    if (given.environment.shines()) scene.lighting.environment = given.environment;
+    hang_photometry(options.lighting, scene, monitor);
     return scene;
 }
 

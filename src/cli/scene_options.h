@@ -1,6 +1,8 @@
 /// Options of subcommands that read a scene.
 #pragma once
 
+#include "cli/lighting_options.h"
+
 #include <transillum/base/monitor.h>
 #include <transillum/scene/load_scene.h>
 #include <transillum/scene/scene.h>
@@ -16,11 +18,12 @@ struct SceneOptions {
     std::string path;
     LoadOptions load;
     float max_albedo = 0.99f;
+    LightingOptions lighting;
 };
 
 void add_scene_options(CLI::App& command, SceneOptions& options);
 
-/// Loads and limits the albedo.
+/// Loads, limits the albedo and adds the lighting.
 [[nodiscard]] Scene read_scene(const SceneOptions& options, Monitor& monitor);
 
 /// Refuses at once what could only be refused after hours of work.
