@@ -1,8 +1,9 @@
 #include "scene/gltf_materials.h"
 
-#include "scene/mean_colour.h"
 #include "scene/soup.h"
 #include "scene/text_reader.h"
+
+#include <glm/vec4.hpp>
 
 #include <array>
 #include <limits>
@@ -94,26 +95,6 @@ Material read_material(const GltfDocument& document, std::size_t index, Monitor&
     return m;
 }
 
-glm::dvec4 mean_of_texture(const GltfDocument& document, const std::string& place,
-                           const Json& use) {
-    const Json& texture = document.element("textures", use.at("index"));
-    if (!texture.contains("source"))
-        document.fail(place, "its base colour texture has no image; accepted: one with a source");
-    const Json& image = document.element("images", texture.at("source"));
-    const std::string where = document.where() + ": " + place;
-    if (image.contains("bufferView"))
-        return mean_colour(where + ": image", document.buffer_view(image.at("bufferView")));
-    const auto uri = image.at("uri").get<std::string>();
-    if (uri.starts_with("data:"))
-        return mean_colour(where + ": image", decode_data_uri(where, uri));
-    const std::filesystem::path file = document.file_of(uri);
-    std::error_code ignored;
-    if (!std::filesystem::is_regular_file(file, ignored))
-        document.fail(place, "its texture " + in_quotes(file.string()) +
-                                 " is not there; accepted: an image file");
-    return mean_colour(file.string());
-}
-
 }  // namespace
 
 std::vector<Material> read_gltf_materials(const GltfDocument& document, Monitor& monitor) {
@@ -121,25 +102,6 @@ std::vector<Material> read_gltf_materials(const GltfDocument& document, Monitor&
     for (std::size_t i = 0; i < document.count("materials"); ++i)
         materials.push_back(read_material(document, i, monitor));
     return materials;
-}
-
-void bake_gltf_textures(const GltfDocument& document, std::size_t index, Material& material,
-                        Monitor& monitor) {
-    const Json& json = document.root().at("materials")[index];
-    const Json& pbr = object_or_empty(json, "pbrMetallicRoughness");
-    const std::string place = place_of_material(index, material.name);
-    const std::string where = document.where() + ": " + place;
-    if (json.contains("emissiveTexture")) monitor.warn(where + ": emissiveTexture is not honoured");
-    if (pbr.contains("metallicRoughnessTexture"))
-        monitor.warn(where + ": metallicRoughnessTexture is not honoured");
-    if (!pbr.contains("baseColorTexture")) return;
-
-    const glm::dvec4 mean = mean_of_texture(document, place, pbr.at("baseColorTexture"));
-    material.diffuse *= Spectrum(mean);
-    material.specular *= Spectrum(mean);
-    if (json.value("alphaMode", "OPAQUE") == "BLEND")
-        material.opacity *= static_cast<float>(mean.a);
-    monitor.note(where + ": its base colour texture is baked with its mean colour");
 }
 
 }  // namespace transillum

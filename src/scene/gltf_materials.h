@@ -17,9 +17,4 @@ namespace transillum {
 [[nodiscard]] std::vector<Material> read_gltf_materials(const GltfDocument& document,
                                                         Monitor& monitor);
 
-/// Multiplies a material by the mean of its base colour texture, with a note; warns of the textures
-/// that are not honoured. \throws InputError naming material and image.
-void bake_gltf_textures(const GltfDocument& document, std::size_t index, Material& material,
-                        Monitor& monitor);
-
 }  // namespace transillum
