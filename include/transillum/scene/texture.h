@@ -20,7 +20,7 @@ struct Texture {
         int width = 0, height = 0;
         std::vector<Spectrum> texels{};
     };
-    std::string name;  ///< for messages
+    std::string name{};  ///< for messages
     int width = 0, height = 0;
     std::vector<Spectrum> texels{};  ///< width * height, finite
     Wrap wrap_u = Wrap::repeat, wrap_v = Wrap::repeat;

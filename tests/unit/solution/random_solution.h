@@ -13,7 +13,7 @@ struct Shape {
     std::vector<int> levels{0, 2, 1};  ///< one a root
     int light_samples = 3;
     int cameras = 2;
-    bool uvs = false;
+    bool uvs = false;  ///< and textures
     bool one_sided = false;
     bool lit = true;
 };
