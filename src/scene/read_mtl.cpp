@@ -86,7 +86,6 @@ std::size_t MtlReader::read_option(std::size_t word, const Statements& m, MtlMap
     constexpr std::array<std::string_view, 8> named{"on", "off", "r", "g", "b", "m", "l", "z"};
     if (word + 1 < words.size() && std::ranges::count(named, words[word]) > 0) name = words[word++];
 
-    // The second number is the first where it is absent in a scale, 0 in an offset.
     const auto vector = [&](double second) {
         return glm::vec2(numbers[0], numbers.size() > 1 ? numbers[1] : second);
     };

@@ -66,21 +66,26 @@ void drop_unused_textures(Scene& scene) {
 
 void finish_textures(Scene& scene, const std::vector<std::uint8_t>& has_uvs, Monitor& monitor) {
     check_uvs(scene);
-    std::map<std::uint32_t, std::uint32_t> uniform_copy;
+    std::vector<bool> is_placed(scene.materials.size());
+    for (std::size_t p = 0; p < scene.polygons.size(); ++p)
+        if (has_uvs[p]) is_placed[scene.polygons[p].material] = true;
+    std::map<std::uint32_t, std::uint32_t> uniform;
     for (std::size_t p = 0; p < scene.polygons.size(); ++p) {
         std::uint32_t& material = scene.polygons[p].material;
         if (has_uvs[p] || !has_textures(scene.materials[material])) continue;
-        const auto [copy, is_new] =
-            uniform_copy.try_emplace(material, static_cast<std::uint32_t>(scene.materials.size()));
+        const auto [found, is_new] =
+            uniform.try_emplace(material, static_cast<std::uint32_t>(scene.materials.size()));
         if (is_new) {
-            Material uniform = scene.materials[material];
-            uniform.textures = {};
-            monitor.warn(scene.path + ": material " + in_quotes(uniform.name) +
+            monitor.warn(scene.path + ": material " + in_quotes(scene.materials[material].name) +
                          ": faces without texture coordinates get its textures' means");
-            scene.materials.push_back(std::move(uniform));
+            scene.materials.push_back(scene.materials[material]);
+            scene.materials.back().textures = {};
         }
-        material = copy->second;
+        material = found->second;
     }
+    for (const auto& [textured, copy] : uniform)
+        if (!is_placed[textured]) scene.materials[textured].textures = {};
+    drop_unused_textures(scene);
 }
 
 }  // namespace transillum

@@ -22,8 +22,8 @@ struct Textured {
 void drop_unused_textures(Scene& scene);
 
 /// Polygons without texture coordinates get a copy of their material that has the means of its
-/// textures, with a warning. \param has_uvs one a polygon. \throws InputError naming a polygon with
-/// a texture coordinate that is not finite.
+/// textures, with a warning; textures that no face can show are dropped. \param has_uvs one a
+/// polygon. \throws InputError naming a polygon with a texture coordinate that is not finite.
 void finish_textures(Scene& scene, const std::vector<std::uint8_t>& has_uvs, Monitor& monitor);
 
 }  // namespace transillum

@@ -25,6 +25,7 @@ std::int64_t modulo(std::int64_t i, std::int64_t n) {
 }
 
 std::int64_t wrapped(std::int64_t i, std::int64_t n, Wrap wrap) {
+    if (i >= 0 && i < n) return i;
     if (wrap == Wrap::clamp) return std::clamp<std::int64_t>(i, 0, n - 1);
     if (wrap == Wrap::repeat) return modulo(i, n);
     const std::int64_t within = modulo(i, 2 * n);

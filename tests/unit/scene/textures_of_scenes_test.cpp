@@ -327,6 +327,19 @@ TEST_F(ObjSceneTextures, FacesWithoutCoordinatesGetTheMean) {
     EXPECT_EQ(scene.materials.at(scene.polygons[1].material).diffuse, Spectrum(0.5f));
 }
 
+TEST_F(ObjSceneTextures, WithoutAnyCoordinatesThereIsNoTexture) {
+    image<std::uint8_t>("d.png", {2, 1, 1}, Bytes{0, 255});
+    write("m.mtl", "newmtl m\nmap_Kd d.png\n");
+    const Scene scene =
+        load("x.obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nusemtl m\nf 1 2 3\n");
+    EXPECT_TRUE(scene.uvs.empty());
+    EXPECT_TRUE(scene.textures.empty());
+    for (const Material& m : scene.materials) {
+        EXPECT_EQ(m.textures.diffuse, -1);
+        EXPECT_EQ(m.diffuse, Spectrum(0.5f));
+    }
+}
+
 }  // namespace
 
 }  // namespace transillum
