@@ -41,13 +41,4 @@ Spectrum compress_highlights(const Spectrum& colour) {
     return c * ((1.0f - range * std::exp((shoulder - peak) / range)) / peak);
 }
 
-float srgb_from_linear(float linear) {
-    const float x = std::clamp(linear, 0.0f, 1.0f);
-    return x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1.0f / 2.4f) - 0.055f;
-}
-
-float linear_from_srgb(float encoded) {
-    return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
-}
-
 }  // namespace transillum

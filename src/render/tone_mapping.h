@@ -1,6 +1,7 @@
 /// From linear radiance to what a screen shows.
 #pragma once
 
+#include <transillum/base/srgb.h>
 #include <transillum/render/image.h>
 
 namespace transillum {
@@ -12,9 +13,5 @@ namespace transillum {
 /// Exposed linear colour to linear display colour in [0, 1]: proportional up to a shoulder.
 /// Channels keep their ratios, so hues stay.
 [[nodiscard]] Spectrum compress_highlights(const Spectrum& colour);
-
-/// IEC 61966-2-1, per channel, [0, 1] to [0, 1].
-[[nodiscard]] float srgb_from_linear(float linear);
-[[nodiscard]] float linear_from_srgb(float encoded);
 
 }  // namespace transillum

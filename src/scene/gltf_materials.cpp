@@ -1,8 +1,9 @@
 #include "scene/gltf_materials.h"
 
-#include "scene/mean_colour.h"
 #include "scene/soup.h"
 #include "scene/text_reader.h"
+
+#include <glm/vec4.hpp>
 
 #include <array>
 #include <limits>
@@ -58,19 +59,6 @@ std::string place_of_material(std::size_t index, const std::string& name) {
     return place_of("materials", index) + " " + in_quotes(name);
 }
 
-/// What reflects: a dielectric of that reflectance over the base colour, or a metal of it.
-struct Reflection {
-    Spectrum base;
-    float metallic;
-    Spectrum dielectric;
-
-    void fill(Material& m) const {
-        m.diffuse = base * (1.0f - metallic);
-        m.specular = glm::mix(dielectric, base, metallic);
-        m.lobe = max_channel(m.specular) > 0.0f ? Lobe::ggx : Lobe::none;
-    }
-};
-
 /// Of a dielectric along the normal: Fresnel's, by KHR_materials_ior, times the factors of
 /// KHR_materials_specular.
 Spectrum dielectric_reflectance(const Factors& factors, const Json& extensions) {
@@ -83,13 +71,6 @@ Spectrum dielectric_reflectance(const Factors& factors, const Json& extensions) 
            glm::min(root * root * colour, Spectrum(1.0f));
 }
 
-Reflection read_reflection(const Factors& factors, const Json& json) {
-    const Json& pbr = object_or_empty(json, "pbrMetallicRoughness");
-    return {Spectrum(factors.vector<4>(pbr, "baseColorFactor", 1.0, 1.0)),
-            factors.scalar(pbr, "metallicFactor", 1.0, 1.0),
-            dielectric_reflectance(factors, object_or_empty(json, "extensions"))};
-}
-
 Material read_material(const GltfDocument& document, std::size_t index, Monitor& monitor) {
     const Json& json = document.root().at("materials")[index];
     Material m = named_material(json.value("name", "material " + std::to_string(index)));
@@ -98,8 +79,12 @@ Material read_material(const GltfDocument& document, std::size_t index, Monitor&
     const Json& extensions = object_or_empty(json, "extensions");
     const Json& pbr = object_or_empty(json, "pbrMetallicRoughness");
 
-    const float alpha = factors.vector<4>(pbr, "baseColorFactor", 1.0, 1.0).a;
-    read_reflection(factors, json).fill(m);
+    const glm::vec4 base = factors.vector<4>(pbr, "baseColorFactor", 1.0, 1.0);
+    const float metallic = factors.scalar(pbr, "metallicFactor", 1.0, 1.0);
+    const GltfReflection reflection{dielectric_reflectance(factors, extensions)};
+    m.diffuse = reflection.diffuse(Spectrum(base), metallic);
+    m.specular = reflection.specular(Spectrum(base), metallic);
+    m.lobe = max_channel(m.specular) > 0.0f ? Lobe::ggx : Lobe::none;
     m.roughness = factors.scalar(pbr, "roughnessFactor", 1.0, 1.0);
 
     const float specular_factor = factors.scalar(
@@ -123,62 +108,28 @@ Material read_material(const GltfDocument& document, std::size_t index, Monitor&
                                       "transmissionFactor", 0.0, 1.0);
     const std::string mode = json.value("alphaMode", "OPAQUE");
     if (mode == "BLEND")
-        m.opacity *= alpha;
+        m.opacity *= base.a;
     else if (mode == "MASK")
-        m.opacity = alpha < factors.scalar(json, "alphaCutoff", 0.5, unbounded) ? 0.0f : m.opacity;
+        m.opacity = base.a < factors.scalar(json, "alphaCutoff", 0.5, unbounded) ? 0.0f : m.opacity;
     else if (mode != "OPAQUE")
         document.fail(place, "alphaMode " + in_quotes(mode) + "; accepted: OPAQUE, MASK, BLEND");
     m.back_reflects = m.back_emits = json.value("doubleSided", false);
     return m;
 }
 
-glm::dvec4 mean_of_texture(const GltfDocument& document, const std::string& place,
-                           const Json& use) {
-    const Json& texture = document.element("textures", use.at("index"));
-    if (!texture.contains("source"))
-        document.fail(place, "its base colour texture has no image; accepted: one with a source");
-    const Json& image = document.element("images", texture.at("source"));
-    const std::string where = document.where() + ": " + place;
-    if (image.contains("bufferView"))
-        return mean_colour(where + ": image", document.buffer_view(image.at("bufferView")));
-    const auto uri = image.at("uri").get<std::string>();
-    if (uri.starts_with("data:"))
-        return mean_colour(where + ": image", decode_data_uri(where, uri));
-    const std::filesystem::path file = document.file_of(uri);
-    std::error_code ignored;
-    if (!std::filesystem::is_regular_file(file, ignored))
-        document.fail(place, "its texture " + in_quotes(file.string()) +
-                                 " is not there; accepted: an image file");
-    return mean_colour(file.string());
-}
-
 }  // namespace
+
+GltfReflection read_gltf_reflection(const GltfDocument& document, std::size_t index) {
+    const Json& json = document.root().at("materials")[index];
+    const Factors factors(document, place_of("materials", index));
+    return {dielectric_reflectance(factors, object_or_empty(json, "extensions"))};
+}
 
 std::vector<Material> read_gltf_materials(const GltfDocument& document, Monitor& monitor) {
     std::vector<Material> materials;
     for (std::size_t i = 0; i < document.count("materials"); ++i)
         materials.push_back(read_material(document, i, monitor));
     return materials;
-}
-
-void bake_gltf_textures(const GltfDocument& document, std::size_t index, Material& material,
-                        Monitor& monitor) {
-    const Json& json = document.root().at("materials")[index];
-    const Json& pbr = object_or_empty(json, "pbrMetallicRoughness");
-    const std::string place = place_of_material(index, material.name);
-    const std::string where = document.where() + ": " + place;
-    if (json.contains("emissiveTexture")) monitor.warn(where + ": emissiveTexture is not honoured");
-    if (pbr.contains("metallicRoughnessTexture"))
-        monitor.warn(where + ": metallicRoughnessTexture is not honoured");
-    if (!pbr.contains("baseColorTexture")) return;
-
-    const glm::dvec4 mean = mean_of_texture(document, place, pbr.at("baseColorTexture"));
-    Reflection reflection = read_reflection(Factors(document, place), json);
-    reflection.base *= Spectrum(mean);
-    reflection.fill(material);
-    if (json.value("alphaMode", "OPAQUE") == "BLEND")
-        material.opacity *= static_cast<float>(mean.a);
-    monitor.note(where + ": its base colour texture is baked with its mean colour");
 }
 
 }  // namespace transillum

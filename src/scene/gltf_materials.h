@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scene/gltf_document.h"
+#include "scene/gltf_textures.h"
 
 #include <transillum/base/monitor.h>
 #include <transillum/scene/scene.h>
@@ -19,9 +20,7 @@ namespace transillum {
 [[nodiscard]] std::vector<Material> read_gltf_materials(const GltfDocument& document,
                                                         Monitor& monitor);
 
-/// Multiplies a material by the mean of its base colour texture, with a note; warns of the textures
-/// that are not honoured. \throws InputError naming material and image.
-void bake_gltf_textures(const GltfDocument& document, std::size_t index, Material& material,
-                        Monitor& monitor);
+/// How a material's base colour and metalness reflect.
+[[nodiscard]] GltfReflection read_gltf_reflection(const GltfDocument& document, std::size_t index);
 
 }  // namespace transillum

@@ -1,6 +1,5 @@
 #include "scene/obj_materials.h"
 
-#include "scene/mean_colour.h"
 #include "scene/soup.h"
 
 #include <algorithm>
@@ -58,25 +57,28 @@ std::uint32_t ObjMaterials::index_of(const std::string& name, Scene& scene) {
     return static_cast<std::uint32_t>(defined - scene.materials.begin());
 }
 
+/// As the maps' options say; v runs upwards in their files, downwards in a Texture.
+void ObjMaterials::place_uvs(Scene& scene) const {
+    if (scene.uvs.empty()) return;
+    for (const Polygon& polygon : scene.polygons) {
+        const MtlMap* map =
+            polygon.material < library_.size() ? main_map(library_[polygon.material]) : nullptr;
+        for (std::uint32_t c = 0; c < polygon.corner_count; ++c) {
+            glm::vec2& uv = scene.uvs[polygon.first_corner + c];
+            if (map) uv = map->scale * uv + map->offset;
+            uv.y = 1.0f - uv.y;
+        }
+    }
+}
+
 void ObjMaterials::finish(Scene& scene) {
     for (const MtlMaterial& m : library_) scene.materials.push_back(m.material);
     std::vector<std::uint32_t> material_of_number;
     for (const std::string& name : names_) material_of_number.push_back(index_of(name, scene));
     for (Polygon& polygon : scene.polygons) polygon.material = material_of_number[polygon.material];
-
-    for (const std::uint32_t used : material_of_number) {
-        if (used >= library_.size() || library_[used].diffuse_map.empty()) continue;
-        Material& material = scene.materials[used];
-        const std::filesystem::path file = obj_.parent_path() / library_[used].diffuse_map;
-        const std::string where = scene.path + ": material " + in_quotes(material.name);
-        std::error_code ignored;
-        if (!std::filesystem::is_regular_file(file, ignored))
-            throw InputError(where, "its texture " + in_quotes(file.string()) +
-                                        " is not there; accepted: an image file");
-        material.diffuse *= Spectrum(mean_colour(file.string()));
-        monitor_.note(where + ": texture " + in_quotes(file.string()) +
-                      " is baked with its mean colour");
-    }
+    for (const std::uint32_t used : material_of_number)
+        if (used < library_.size()) textures_.apply(library_[used], scene.materials[used], scene);
+    place_uvs(scene);
 }
 
 }  // namespace transillum

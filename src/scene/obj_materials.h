@@ -1,6 +1,7 @@
 /// The materials an OBJ file names, and the libraries that define them.
 #pragma once
 
+#include "scene/obj_textures.h"
 #include "scene/read_mtl.h"
 #include "scene/text_reader.h"
 
@@ -19,7 +20,7 @@ namespace transillum {
 class ObjMaterials {
 public:
     ObjMaterials(std::filesystem::path obj, Monitor& monitor)
-        : obj_(std::move(obj)), monitor_(monitor) {}
+        : obj_(std::move(obj)), textures_(obj_.parent_path(), monitor), monitor_(monitor) {}
 
     /// The libraries of an `mtllib` statement; one that is not there is warned of.
     void load(const TextReader& statement);
@@ -28,15 +29,17 @@ public:
     /// Number of the selected name, for Polygon::material until `finish`.
     std::uint32_t current();
     /// Fills in the scene's materials: those of the libraries, then a default one for each name
-    /// that none defines; bakes the textures of those used. \throws InputError where such a texture
-    /// cannot be read.
+    /// that none defines; reads the textures of those used and places their texture coordinates.
+    /// \throws InputError where such a texture cannot be read.
     void finish(Scene& scene);
 
 private:
     bool load_library(const std::string& name);
     std::uint32_t index_of(const std::string& name, Scene& scene);
+    void place_uvs(Scene& scene) const;
 
     std::filesystem::path obj_;
+    ObjTextures textures_;
     Monitor& monitor_;
     std::string selected_;
     std::map<std::string, std::uint32_t, std::less<>> number_of_name_;

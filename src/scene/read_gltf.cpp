@@ -4,6 +4,8 @@
 #include "scene/gltf_lights.h"
 #include "scene/gltf_materials.h"
 #include "scene/gltf_nodes.h"
+#include "scene/gltf_textures.h"
+#include "scene/scene_textures.h"
 #include "scene/soup.h"
 #include "scene/text_reader.h"
 
@@ -25,7 +27,7 @@ namespace {
 class GltfReader {
 public:
     GltfReader(const std::filesystem::path& path, Monitor& monitor)
-        : document_(path), monitor_(monitor) {
+        : document_(path), textures_(document_, monitor), monitor_(monitor) {
         scene_.path = path.string();
     }
     Scene read();
@@ -40,14 +42,15 @@ private:
                                             std::size_t vertices) const;
     void read_positions(const GltfNode& node, const GltfAccessor& positions,
                         const std::string& place);
-    void bake_textures();
+    void apply_textures();
 
     GltfDocument document_;
+    GltfTextures textures_;
     Monitor& monitor_;
     Scene scene_;
     std::uint32_t default_material_ = std::numeric_limits<std::uint32_t>::max();
     std::set<std::string> left_out_;
-    bool has_uvs_ = false;
+    std::vector<std::uint8_t> has_uvs_;  ///< one a polygon
 };
 
 void GltfReader::check_extensions() {
@@ -157,14 +160,18 @@ void GltfReader::read_primitive(const GltfNode& node, const std::string& place,
     if (primitive.contains("targets")) left_out_.insert("morph targets");
 
     const GltfAccessor positions = document_.accessor(attributes.at("POSITION"), "VEC3");
-    const bool has_uvs = attributes.contains("TEXCOORD_0");
+    const TextureFrame frame =
+        primitive.contains("material")
+            ? textures_.frame_of(document_.index_into("materials", primitive.at("material")))
+            : TextureFrame{};
+    const std::string uv_set = "TEXCOORD_" + std::to_string(frame.set);
+    const bool has_uvs = attributes.contains(uv_set);
     const GltfAccessor uvs =
-        has_uvs ? document_.accessor(attributes.at("TEXCOORD_0"), "VEC2") : GltfAccessor{};
+        has_uvs ? document_.accessor(attributes.at(uv_set), "VEC2") : GltfAccessor{};
     if (has_uvs && uvs.count != positions.count)
         document_.fail(place, std::to_string(uvs.count) +
                                   " texture coordinates; accepted: one for each of " +
                                   std::to_string(positions.count) + " vertices");
-    has_uvs_ |= has_uvs;
     std::vector<std::uint32_t> indices = read_indices(place, primitive, positions.count);
     // A mirroring transform turns the corners round; glTF keeps the front where it was.
     if (glm::determinant(glm::dmat3(node.world_from_node)) < 0.0)
@@ -176,11 +183,13 @@ void GltfReader::read_primitive(const GltfNode& node, const std::string& place,
     read_positions(node, positions, place);
     for (std::size_t i = 0; i < indices.size(); ++i) {
         scene_.corners.push_back(offset + indices[i]);
-        scene_.uvs.push_back(has_uvs ? glm::vec2(uvs.value(indices[i], 0), uvs.value(indices[i], 1))
-                                     : glm::vec2(0.0f));
-        if (i % 3 == 2)
-            close_polygon(scene_, scene_.corners.size() - 3, material,
-                          static_cast<std::uint32_t>(scene_.objects.size() - 1));
+        scene_.uvs.push_back(has_uvs
+                                 ? frame.apply({uvs.value(indices[i], 0), uvs.value(indices[i], 1)})
+                                 : glm::vec2(0.0f));
+        if (i % 3 < 2) continue;
+        close_polygon(scene_, scene_.corners.size() - 3, material,
+                      static_cast<std::uint32_t>(scene_.objects.size() - 1));
+        has_uvs_.push_back(has_uvs);
     }
 }
 
@@ -224,11 +233,11 @@ void GltfReader::read_node(const GltfNode& node) {
                        primitive);
 }
 
-void GltfReader::bake_textures() {
+void GltfReader::apply_textures() {
     std::vector<bool> used(scene_.materials.size(), false);
     for (const Polygon& polygon : scene_.polygons) used[polygon.material] = true;
     for (std::size_t i = 0; i < document_.count("materials"); ++i)
-        if (used[i]) bake_gltf_textures(document_, i, scene_.materials[i], monitor_);
+        if (used[i]) textures_.apply(i, read_gltf_reflection(document_, i), scene_);
     for (std::size_t i = 0; i < document_.count("textures"); ++i) {
         const Json& texture = document_.root().at("textures")[i];
         if (texture.contains("source") &&
@@ -242,8 +251,9 @@ Scene GltfReader::read() {
     check_extensions();
     scene_.materials = read_gltf_materials(document_, monitor_);
     for (const GltfNode& node : flatten_nodes(document_)) read_node(node);
-    if (!has_uvs_) scene_.uvs.clear();
-    bake_textures();
+    if (std::ranges::count(has_uvs_, 1) == 0) scene_.uvs.clear();
+    apply_textures();
+    finish_textures(scene_, has_uvs_, monitor_);
     for (const std::string& what : left_out_)
         monitor_.note(scene_.path + ": not honoured: " + what);
     return std::move(scene_);

@@ -18,7 +18,8 @@ constexpr double unbounded = std::numeric_limits<float>::max();
 
 /// What the statements after a `newmtl` said.
 struct Statements {
-    std::string name, diffuse_map;
+    std::string name;
+    MtlMap diffuse_map, specular_map, emission_map;
     std::optional<Spectrum> kd, ks, ke;
     std::optional<double> ns, opacity, transparency, illum;
 };
@@ -42,7 +43,9 @@ private:
     void finish_material();
     [[nodiscard]] double value(std::size_t word, double most) const;
     [[nodiscard]] Spectrum colour(double most) const;
-    [[nodiscard]] std::string map_file() const;
+    [[nodiscard]] MtlMap map(const Statements& m) const;
+    std::size_t read_option(std::size_t word, const Statements& m, MtlMap& map) const;
+    void take_factors_of_maps(Statements& m);
 
     TextReader reader_;
     std::string path_;
@@ -72,23 +75,46 @@ Spectrum MtlReader::colour(double most) const {
     return s;
 }
 
-/// The file name after the options (`-s 1 1 1`, `-clamp on`, `-imfchan r`).
-std::string MtlReader::map_file() const {
+/// Takes the option of a map that begins at a word; returns the word after it. Numbers end where
+/// the file name must begin.
+std::size_t MtlReader::read_option(std::size_t word, const Statements& m, MtlMap& map) const {
     const auto& words = reader_.words();
+    const std::string_view option = words[word++];
+    std::vector<double> numbers;
+    while (word + 1 < words.size() &&
+           words[word].find_first_not_of("0123456789+-.eE") == std::string_view::npos)
+        numbers.push_back(reader_.number(words[word++]));
+    std::string_view name;
+    constexpr std::array<std::string_view, 8> named{"on", "off", "r", "g", "b", "m", "l", "z"};
+    if (word + 1 < words.size() && std::ranges::count(named, words[word]) > 0) name = words[word++];
+
+    const auto vector = [&](double second) {
+        return glm::vec2(numbers[0], numbers.size() > 1 ? numbers[1] : second);
+    };
+    constexpr std::array<std::string_view, 4> harmless{"-blendu", "-blendv", "-texres", "-type"};
+    if (option == "-s" && !numbers.empty())
+        map.scale = vector(1.0);
+    else if (option == "-o" && !numbers.empty())
+        map.offset = vector(0.0);
+    else if (option == "-clamp")
+        map.clamp = name == "on";
+    else if (std::ranges::count(harmless, option) == 0)
+        monitor_.warn(path_ + ":" + std::to_string(reader_.line()) + ": material " +
+                      in_quotes(m.name) + ": option " + in_quotes(option) + " is not honoured");
+    return word;
+}
+
+/// Options (`-s 1 1 1`, `-clamp on`), then the file name.
+MtlMap MtlReader::map(const Statements& m) const {
+    const auto& words = reader_.words();
+    MtlMap map;
     std::size_t i = 1;
-    while (i < words.size() && words[i][0] == '-') {
-        ++i;
-        while (i + 1 < words.size() &&
-               words[i].find_first_not_of("0123456789+-.eE") == std::string_view::npos)
-            ++i;
-        constexpr std::array<std::string_view, 8> named{"on", "off", "r", "g", "b", "m", "l", "z"};
-        if (i + 1 < words.size() && std::ranges::count(named, words[i]) > 0) ++i;
-    }
-    std::string file(reader_.rest(i));
-    if (file.empty())
+    while (i < words.size() && words[i][0] == '-') i = read_option(i, m, map);
+    map.file = reader_.rest(i);
+    if (map.file.empty())
         reader_.fail(in_quotes(reader_.rest(0)) + " names no file; accepted: a file name");
-    std::ranges::replace(file, '\\', '/');
-    return file;
+    std::ranges::replace(map.file, '\\', '/');
+    return map;
 }
 
 void MtlReader::read_statement() {
@@ -116,7 +142,11 @@ void MtlReader::read_statement() {
     else if (keyword == "illum")
         m.illum = value(1, 10.0);
     else if (keyword == "map_Kd")
-        m.diffuse_map = map_file();
+        m.diffuse_map = map(m);
+    else if (keyword == "map_Ks")
+        m.specular_map = map(m);
+    else if (keyword == "map_Ke")
+        m.emission_map = map(m);
     else
         report_unused(keyword, m);
 }
@@ -136,15 +166,24 @@ void MtlReader::report_unused(std::string_view keyword, const Statements& m) {
     }
 }
 
+/// A map without a factor stands alone.
+void MtlReader::take_factors_of_maps(Statements& m) {
+    m.diffuse_map.without = m.kd.value_or(Spectrum(0.5f));
+    m.specular_map.without = m.ks.value_or(Spectrum(0.0f));
+    m.emission_map.without = m.ke.value_or(Spectrum(0.0f));
+    if (!m.diffuse_map.file.empty() && !m.kd) m.kd = Spectrum(1.0f);
+    if (!m.specular_map.file.empty() && !m.ks) m.ks = Spectrum(1.0f);
+    if (!m.emission_map.file.empty() && !m.ke) m.ke = Spectrum(1.0f);
+}
+
 void MtlReader::finish_material() {
     if (!current_) return;
+    take_factors_of_maps(*current_);
     const Statements& m = *current_;
-    MtlMaterial result{named_material(m.name), m.diffuse_map};
+    MtlMaterial result{named_material(m.name), m.diffuse_map, m.specular_map, m.emission_map};
     Material& material = result.material;
     if (m.kd) {
         material.diffuse = *m.kd;
-    } else if (!m.diffuse_map.empty()) {
-        material.diffuse = Spectrum(1.0f);
     } else {
         monitor_.note(path_ + ": material " + in_quotes(m.name) + " has no Kd; 0.5 is taken");
     }

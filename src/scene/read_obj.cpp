@@ -2,6 +2,7 @@
 
 #include "scene/obj_cameras.h"
 #include "scene/obj_materials.h"
+#include "scene/scene_textures.h"
 #include "scene/soup.h"
 #include "scene/text_reader.h"
 
@@ -62,6 +63,7 @@ private:
     [[nodiscard]] std::string naming_error(std::int64_t named, std::size_t count,
                                            const char* kind) const;
     void take_corners();
+    [[nodiscard]] std::vector<std::uint8_t> polygons_with_uvs() const;
 
     TextReader reader_;
     ObjMaterials materials_;
@@ -199,6 +201,16 @@ void ObjReader::take_corners() {
                                             : uvs_[static_cast<std::size_t>(c.uv)]);
 }
 
+std::vector<std::uint8_t> ObjReader::polygons_with_uvs() const {
+    std::vector<std::uint8_t> has_uvs;
+    for (const Polygon& p : scene_.polygons) {
+        const auto first = corners_.begin() + p.first_corner;
+        has_uvs.push_back(std::all_of(first, first + p.corner_count,
+                                      [](const Corner& c) { return c.uv != absent; }));
+    }
+    return has_uvs;
+}
+
 Scene ObjReader::read() {
     while (reader_.next_line()) read_statement();
     check_indices();
@@ -208,6 +220,7 @@ Scene ObjReader::read() {
     for (std::size_t p = 0; p < scene_.polygons.size(); ++p)
         scene_.polygons[p].object = grouping.of_polygon[p];
     materials_.finish(scene_);
+    finish_textures(scene_, polygons_with_uvs(), monitor_);
     if (left_out_ > 0)
         monitor_.note(scene_.path + ": " + std::to_string(left_out_) +
                       " points, lines or free-form curves and surfaces are left out");

@@ -4,6 +4,7 @@
 #include <transillum/geometry/root_trees.h>
 #include <transillum/scene/photometry.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -71,6 +72,38 @@ void check_text(const std::string& text, const Place& what) {
         throw Defect(what.text() + ": text holds a zero byte");
 }
 
+void check_texture(const Texture* texture, const Place& what) {
+    if (texture == nullptr) throw Defect(what.text() + " is not there");
+    check_text(texture->name, what / "name");
+    check_number(texture->width, 1.0, infinity, what / "width");
+    check_number(texture->height, 1.0, infinity, what / "height");
+    check_count(
+        texture->texels.size(),
+        static_cast<std::size_t>(texture->width) * static_cast<std::size_t>(texture->height),
+        what / "texels");
+    for (const Spectrum& texel : texture->texels) check_vector(texel, 0.0, what / "texel");
+    if (std::max(texture->wrap_u, texture->wrap_v) > Texture::Wrap::clamp)
+        throw Defect(what.text() + ": unknown wrap mode");
+}
+
+/// Textures that no material names are not stored and may be anything.
+void check_textures(const SurfaceMesh& mesh) {
+    std::vector<bool> is_used(mesh.textures.size());
+    for (std::size_t i = 0; i < mesh.materials.size(); ++i) {
+        const MaterialTextures& t = mesh.materials[i].textures;
+        for (const std::int32_t texture : {t.diffuse, t.specular, t.roughness, t.emission}) {
+            if (texture == -1) continue;
+            check_number(texture, 0.0, static_cast<double>(mesh.textures.size()) - 1.0,
+                         Place("material", i, "texture"));
+            is_used[static_cast<std::size_t>(texture)] = true;
+        }
+    }
+    for (std::size_t i = 0; i < mesh.textures.size(); ++i)
+        if (is_used[i]) check_texture(mesh.textures[i].get(), Place("texture", i));
+    if (mesh.uvs.empty() && std::ranges::count(is_used, true) > 0 && !mesh.triangles.empty())
+        throw Defect("UVs: none, but materials have textures");
+}
+
 void check_material(const Material& material, const Place& what) {
     check_text(material.name, what / "name");
     check_vector(material.diffuse, 0.0, what / "diffuse albedo");
@@ -107,6 +140,7 @@ void check_surface(const SurfaceMesh& mesh) {
     for (std::size_t i = 0; i < mesh.materials.size(); ++i) {
         check_material(mesh.materials[i], Place("material", i));
     }
+    check_textures(mesh);
     for (std::size_t i = 0; i < mesh.objects.size(); ++i) {
         check_text(mesh.objects[i], Place("object", i));
     }

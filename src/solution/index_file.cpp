@@ -92,6 +92,14 @@ void check_format(const std::string& text, const std::filesystem::path& path) {
 
 }  // namespace
 
+bool is_image(std::string_view piece) {
+    return piece.starts_with("texture-");
+}
+
+std::string file_of_piece(std::string_view piece) {
+    return std::string(piece) + (is_image(piece) ? ".vti" : ".vtp");
+}
+
 IndexFile index_of(const std::string& folder,
                    const std::vector<std::pair<std::string, std::string>>& pieces) {
     IndexFile index{folder, {}};
@@ -103,18 +111,29 @@ IndexFile index_of(const std::string& folder,
 
 std::string format_index(const IndexFile& index) {
     std::ostringstream text;
+    const auto attributes_of = [&](const IndexedPiece& piece) {
+        text << "name=\"" << piece.name << "\" file=\"" << escape_xml(index.folder) << '/'
+             << file_of_piece(piece.name) << "\" bytes=\"" << piece.bytes << "\" crc32=\""
+             << hexadecimal(piece.checksum) << "\"/>\n";
+    };
     text << "<?xml version=\"1.0\"?>\n"
          << "<VTKFile type=\"vtkMultiBlockDataSet\" version=\"1.0\" byte_order=\"LittleEndian\""
          << " header_type=\"UInt64\">\n"
          << "  <vtkMultiBlockDataSet " << format_attribute << "=\"" << solution_format_version
          << "\">\n";
-    for (std::size_t i = 0; i < index.pieces.size(); ++i) {
-        const IndexedPiece& piece = index.pieces[i];
-        text << "    <DataSet index=\"" << i << "\" name=\"" << piece.name << "\" file=\""
-             << escape_xml(index.folder) << '/' << piece.name << ".vtp\" bytes=\"" << piece.bytes
-             << "\" crc32=\"" << hexadecimal(piece.checksum) << "\"/>\n";
+    std::size_t block = 0;
+    for (const IndexedPiece& piece : index.pieces) {
+        if (is_image(piece.name)) continue;
+        text << "    <DataSet index=\"" << block++ << "\" ";
+        attributes_of(piece);
     }
-    text << "  </vtkMultiBlockDataSet>\n</VTKFile>\n";
+    text << "  </vtkMultiBlockDataSet>\n";
+    for (const IndexedPiece& piece : index.pieces) {
+        if (!is_image(piece.name)) continue;
+        text << "  <Image ";
+        attributes_of(piece);
+    }
+    text << "</VTKFile>\n";
     return text.str();
 }
 
@@ -123,7 +142,9 @@ IndexFile parse_index(const std::string& text, const std::filesystem::path& path
     IndexFile index;
     std::istringstream lines(text);
     for (std::string line; std::getline(lines, line);) {
-        if (line.find("<DataSet ") == std::string::npos) continue;
+        if (line.find("<DataSet ") == std::string::npos &&
+            line.find("<Image ") == std::string::npos)
+            continue;
         const std::string file = attribute(line, "file").value_or("");
         index.folder = file.substr(0, file.find('/'));
         index.pieces.push_back({attribute(line, "name").value_or(""),

@@ -1,16 +1,18 @@
 /// NAME.vtm: the blocks of a solution, as VTK's multi-block reader wants them, with the size and
-/// checksum of every file so that damage is found before anything is believed.
+/// checksum of every file so that damage is found before anything is believed. Images stand beside
+/// the blocks, where viewers do not put them into the scene.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace transillum {
 
 struct IndexedPiece {
-    std::string name;  ///< of the block; its file is FOLDER/name.vtp
+    std::string name;  ///< of the block; its file is FOLDER/file_of_piece(name)
     std::uint64_t bytes = 0;
     std::uint32_t checksum = 0;
 };
@@ -19,6 +21,10 @@ struct IndexFile {
     std::string folder;  ///< beside the index file
     std::vector<IndexedPiece> pieces;
 };
+
+[[nodiscard]] bool is_image(std::string_view piece);
+/// The name with its extension: .vti for images, .vtp for all else.
+[[nodiscard]] std::string file_of_piece(std::string_view piece);
 
 [[nodiscard]] IndexFile index_of(const std::string& folder,
                                  const std::vector<std::pair<std::string, std::string>>& pieces);

@@ -21,22 +21,30 @@ public:
     explicit Pieces(const Path& path) : path_(path), index_(parse_index(read_bytes(path), path)) {}
 
     [[nodiscard]] Path file(const std::string& name) const {
-        return path_.parent_path() / index_.folder / (name + ".vtp");
+        return path_.parent_path() / index_.folder / file_of_piece(name);
     }
 
     [[nodiscard]] PolyData read(const std::string& name) const {
+        return from_vtp(bytes_of(name), file(name));
+    }
+
+    [[nodiscard]] ImageData read_image(const std::string& name) const {
+        return from_vti(bytes_of(name), file(name));
+    }
+
+private:
+    [[nodiscard]] std::string bytes_of(const std::string& name) const {
         const auto piece =
             std::find_if(index_.pieces.begin(), index_.pieces.end(),
                          [&](const IndexedPiece& each) { return each.name == name; });
         if (piece == index_.pieces.end()) {
             throw InputError(path_.string(), "the block '" + name + "' is missing");
         }
-        const std::string bytes = read_bytes(file(name));
+        std::string bytes = read_bytes(file(name));
         check(bytes, *piece);
-        return from_vtp(bytes, file(name));
+        return bytes;
     }
 
-private:
     void check(const std::string& bytes, const IndexedPiece& piece) const {
         if (bytes.size() != piece.bytes) {
             throw InputError(file(piece.name).string(), "damaged: " + std::to_string(bytes.size()) +
@@ -54,6 +62,15 @@ private:
     IndexFile index_;
 };
 
+void read_textures(const Pieces& pieces, SurfaceMesh& surface) {
+    for (std::size_t i = 0; i < surface.textures.size(); ++i) {
+        const std::string name = texture_piece_name(i);
+        Texture texture = read_texture_piece(*pieces.read_image(name), pieces.file(name));
+        texture.build_levels();
+        surface.textures[i] = std::make_shared<const Texture>(std::move(texture));
+    }
+}
+
 }  // namespace
 
 Solution load_solution(const Path& path) {
@@ -65,6 +82,7 @@ Solution load_solution(const Path& path) {
     const PolyData surface = pieces.read("surface");
     read_summary(*surface->GetFieldData(), pieces.file("surface"), solution);
     read_surface_piece(*surface, pieces.file("surface"), solution);
+    read_textures(pieces, solution.surface);
     read("lights", read_lights_piece, solution);
     Environment& environment = solution.lighting.environment;
     if (environment.kind == Environment::Kind::image)

@@ -19,6 +19,11 @@ namespace {
 constexpr std::array<std::string_view, 6> known_files{
     "radiance.vtp", "incoming.vtp", "lights.vtp", "environment.vtp", "surface.vtp", "run.json"};
 
+bool is_known(std::string_view name) {
+    return std::find(known_files.begin(), known_files.end(), name) != known_files.end() ||
+           (name.starts_with("texture-") && name.ends_with(".vti"));
+}
+
 [[noreturn]] void fail(const fs::path& path, const std::string& what, int error) {
     throw IoError(path.string(), what + ": " + std::generic_category().message(error));
 }
@@ -62,7 +67,7 @@ void check_in_the_way(const fs::path& index, const fs::path& folder) {
     }
     for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
         const std::string name = entry.path().filename().string();
-        if (std::find(known_files.begin(), known_files.end(), name) == known_files.end()) {
+        if (!is_known(name)) {
             throw IoError(folder.string(), "holds '" + name +
                                                "', which is no part of a solution; choose another "
                                                "name or another place");

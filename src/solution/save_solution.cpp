@@ -42,6 +42,12 @@ NamedBytes format_pieces(const Solution& solution, const Path& folder) {
     const PolyData surface = surface_piece(solution);
     add_summary(solution, *surface->GetFieldData());
     add("surface", surface);
+    const std::vector<std::uint32_t> textures = used_textures(solution.surface);
+    for (std::size_t i = 0; i < textures.size(); ++i) {
+        const std::string name = texture_piece_name(i);
+        const ImageData piece = texture_piece(*solution.surface.textures[textures[i]]);
+        pieces.emplace_back(name, to_vti(*piece, folder / file_of_piece(name)));
+    }
     return pieces;
 }
 
@@ -55,7 +61,7 @@ void save_solution(const Solution& solution, const RunRecord& run, const Path& p
     SolutionFiles files;
     files.pieces = format_pieces(solution, Path(path).replace_extension());
     files.index = format_index(index_of(path.stem().string(), files.pieces));
-    for (auto& [name, bytes] : files.pieces) name += ".vtp";
+    for (auto& [name, bytes] : files.pieces) name = file_of_piece(name);
     files.pieces.emplace_back("run.json", format_run_record(run));
     replace_files(files, path);
 }

@@ -4,7 +4,10 @@
 
 #include <vtkCommand.h>
 #include <vtkErrorCode.h>
+#include <vtkExecutive.h>
 #include <vtkNew.h>
+#include <vtkXMLImageDataReader.h>
+#include <vtkXMLImageDataWriter.h>
 #include <vtkXMLPolyDataReader.h>
 #include <vtkXMLPolyDataWriter.h>
 
@@ -36,11 +39,10 @@ std::string reason(vtkAlgorithm& algorithm, const MessageKeeper& keeper) {
     return "error code " + std::to_string(algorithm.GetErrorCode());
 }
 
-}  // namespace
-
-std::string to_vtp(vtkPolyData& data, const std::filesystem::path& file) {
+template <class Writer, class Data>
+std::string to_bytes(Data& data, const std::filesystem::path& file) {
     vtkNew<MessageKeeper> keeper;
-    vtkNew<vtkXMLPolyDataWriter> writer;
+    vtkNew<Writer> writer;
     observe(*writer, *keeper);
     writer->SetInputData(&data);
     writer->SetDataModeToAppended();
@@ -56,11 +58,12 @@ std::string to_vtp(vtkPolyData& data, const std::filesystem::path& file) {
     return writer->GetOutputString();
 }
 
-vtkSmartPointer<vtkPolyData> from_vtp(const std::string& bytes,
-                                      const std::filesystem::path& file) try {
+template <class Reader, class Data>
+vtkSmartPointer<Data> from_bytes(const std::string& bytes, const std::filesystem::path& file) try {
     vtkNew<MessageKeeper> keeper;
-    vtkNew<vtkXMLPolyDataReader> reader;
+    vtkNew<Reader> reader;
     observe(*reader, *keeper);
+    observe(*reader->GetExecutive(), *keeper);
     reader->SetParserErrorObserver(keeper);
     reader->ReadFromInputStringOn();
     reader->SetInputString(bytes);
@@ -71,6 +74,25 @@ vtkSmartPointer<vtkPolyData> from_vtp(const std::string& bytes,
     return reader->GetOutput();
 } catch (const std::bad_alloc&) {
     throw InputError(file.string(), "asks for more memory than there is");
+}
+
+}  // namespace
+
+std::string to_vtp(vtkPolyData& data, const std::filesystem::path& file) {
+    return to_bytes<vtkXMLPolyDataWriter>(data, file);
+}
+
+std::string to_vti(vtkImageData& data, const std::filesystem::path& file) {
+    return to_bytes<vtkXMLImageDataWriter>(data, file);
+}
+
+vtkSmartPointer<vtkPolyData> from_vtp(const std::string& bytes, const std::filesystem::path& file) {
+    return from_bytes<vtkXMLPolyDataReader, vtkPolyData>(bytes, file);
+}
+
+vtkSmartPointer<vtkImageData> from_vti(const std::string& bytes,
+                                       const std::filesystem::path& file) {
+    return from_bytes<vtkXMLImageDataReader, vtkImageData>(bytes, file);
 }
 
 }  // namespace transillum

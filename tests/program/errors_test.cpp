@@ -221,11 +221,20 @@ INSTANTIATE_TEST_SUITE_P(
         Paint{"AlbedoAboveOne", "1.5", "1", "", "", bad_input, {"room.mtl:2", "Kd is 1.5"}},
         Paint{"NegativeEmission", "0.5", "-1", "", "", bad_input, {"room.mtl:5", "Ke is -1"}},
         Paint{"NanEmission", "0.5", "nan", "", "", bad_input, {"room.mtl:5", "nan"}},
-        Paint{
-            "MissingTexture", "0.5", "1", "map_Kd none.png\n", "", bad_input, {"wall", "none.png"}},
         Paint{"DarkLamp", "0.5", "0", "", "", bad_input, {"room.obj", "no light"}},
         Paint{"NothingAbsorbs", "1", "1", "", "--max-albedo 1", usage, {"albedo", "never fade"}}),
     [](const auto& info) { return std::string(info.param.name); });
+
+using MissingTexture = Program;
+
+TEST_F(MissingTexture, IsNamedAndDoneWithout) {
+    write_room("0.5", "1", "map_Kd none.png\n");
+    const Outcome o = run("bake room.obj -o s.vtm --leaves 100 --iterations 4");
+    EXPECT_EQ(o.exit_code, 0) << o.err;
+    EXPECT_NE(o.err.find("'wall': its texture 'none.png' is not there; 0.5 0.5 0.5 is taken"),
+              std::string::npos)
+        << o.err;
+}
 
 using DamagedSolution = Program;
 

@@ -4,23 +4,33 @@
 
 #include <transillum/solution/solution.h>
 
+#include <vtkImageData.h>
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace transillum {
 
 using Patches = std::vector<std::uint32_t>;
 using PolyData = vtkSmartPointer<vtkPolyData>;
+using ImageData = vtkSmartPointer<vtkImageData>;
 using Path = std::filesystem::path;
 
 /// Root triangles, materials, objects, cameras, shot sides.
 [[nodiscard]] PolyData surface_piece(const Solution& solution);
-/// Fills `surface`, `patches`, `cameras` and `direct.shot_sides`.
+/// Fills `surface`, `patches`, `cameras` and `direct.shot_sides`; of textures, their number.
 void read_surface_piece(vtkPolyData& piece, const Path& file, Solution& solution);
+
+/// Textures that a material names, ascending: those that are stored, numbered anew.
+[[nodiscard]] std::vector<std::uint32_t> used_textures(const SurfaceMesh& surface);
+/// Point data `Texels`: bytes where that loses nothing, else floating point.
+[[nodiscard]] ImageData texture_piece(const Texture& texture);
+[[nodiscard]] Texture read_texture_piece(vtkImageData& piece, const Path& file);
+[[nodiscard]] std::string texture_piece_name(std::size_t number);
 
 /// Counts, settings, decisions, energy balance, units: field data of the surface.
 void add_summary(const Solution& solution, vtkFieldData& fields);

@@ -50,6 +50,39 @@ void for_triangle_members(Each each) {
     each("SourceFace", &RootTriangle::source_face);
 }
 
+/// Indices of a material's textures.
+using TextureIndices = std::array<std::int32_t, 4>;
+
+void add_material_textures(const SurfaceMesh& mesh, vtkFieldData& fields) {
+    const std::vector<std::uint32_t> used = used_textures(mesh);
+    const auto stored = [&](std::int32_t texture) {
+        if (texture < 0) return texture;
+        return static_cast<std::int32_t>(
+            std::ranges::lower_bound(used, static_cast<std::uint32_t>(texture)) - used.begin());
+    };
+    add_array(fields, "MaterialTextures", mesh.materials.size(), [&](std::size_t i) {
+        const MaterialTextures& t = mesh.materials[i].textures;
+        return TextureIndices{stored(t.diffuse), stored(t.specular), stored(t.roughness),
+                              stored(t.emission)};
+    });
+    add_value(fields, "TextureCount", static_cast<std::uint32_t>(used.size()));
+}
+
+void read_material_textures(const ArrayReader& reader, const Path& file, SurfaceMesh& mesh) {
+    const auto indices = reader.read<TextureIndices>("MaterialTextures", mesh.materials.size());
+    for (std::size_t i = 0; i < indices.size(); ++i) {
+        const auto& [diffuse, specular, roughness, emission] = indices[i];
+        mesh.materials[i].textures = {diffuse, specular, roughness, emission};
+    }
+    const auto count = reader.read_value<std::uint32_t>("TextureCount");
+    if (count > 4 * mesh.materials.size()) {
+        throw InputError(file.string(), "array 'TextureCount': " + std::to_string(count) +
+                                            " textures of " +
+                                            std::to_string(mesh.materials.size()) + " materials");
+    }
+    mesh.textures.resize(count);
+}
+
 using CornerUvs = std::array<float, 6>;
 
 void add_uvs(const SurfaceMesh& mesh, vtkFieldData& cells) {
@@ -199,6 +232,7 @@ PolyData surface_piece(const Solution& solution) {
     add_trees(solution.patches, cells, fields);
     for_material_members(
         [&](const char* name, auto member) { add_member(fields, name, mesh.materials, member); });
+    add_material_textures(mesh, fields);
     for_camera_members(
         [&](const char* name, auto member) { add_member(fields, name, solution.cameras, member); });
     add_strings(fields, "ObjectName", mesh.objects);
@@ -222,6 +256,7 @@ void read_surface_piece(vtkPolyData& piece, const Path& file, Solution& solution
     mesh.materials.resize(fields.read_strings("MaterialName").size());
     for_material_members(
         [&](const char* name, auto member) { read_member(fields, name, mesh.materials, member); });
+    read_material_textures(fields, file, mesh);
     solution.cameras.resize(fields.read_strings("CameraName").size());
     for_camera_members([&](const char* name, auto member) {
         read_member(fields, name, solution.cameras, member);

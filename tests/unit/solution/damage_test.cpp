@@ -10,6 +10,8 @@
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
 
 #include <fstream>
 #include <functional>
@@ -28,7 +30,7 @@ void write(const fs::path& file, const std::string& bytes) {
 class Damage : public testing::Test {
 protected:
     Damage() : folder_(fresh_folder()), path_(folder_ / "room.vtm") {
-        save_solution(random_solution({.splits = 2}, 1), {"bake", 1, {}}, path_);
+        save_solution(random_solution({.uvs = true, .splits = 2}, 1), {"bake", 1, {}}, path_);
         files_ = files_below(folder_);
         files_.erase("room");
         files_.erase("room/run.json");
@@ -50,17 +52,23 @@ protected:
 
     /// Rewrites a piece, checksum and all: the damage that only the checks of values can find.
     void forge(const std::string& piece, const std::function<void(vtkPolyData&)>& change) const {
+        const auto data = from_vtp(files_.at("room/" + piece + ".vtp"), piece);
+        change(*data);
+        replace(piece, to_vtp(*data, piece));
+    }
+    void forge_image(const std::string& piece,
+                     const std::function<void(vtkImageData&)>& change) const {
+        const auto data = from_vti(files_.at("room/" + piece + ".vti"), piece);
+        change(*data);
+        replace(piece, to_vti(*data, piece));
+    }
+    void replace(const std::string& piece, const std::string& forged) const {
         std::vector<std::pair<std::string, std::string>> pieces;
-        for (const char* name : {"radiance", "incoming", "lights", "surface"}) {
-            std::string bytes = files_.at("room/" + std::string(name) + ".vtp");
-            if (name == piece) {
-                const auto data = from_vtp(bytes, name);
-                change(*data);
-                bytes = to_vtp(*data, name);
-                write(folder_ / "room" / (piece + ".vtp"), bytes);
-            }
-            pieces.emplace_back(name, bytes);
-        }
+        for (const char* name :
+             {"radiance", "incoming", "lights", "surface", "texture-0", "texture-1", "texture-2"})
+            pieces.emplace_back(name,
+                                name == piece ? forged : files_.at("room/" + file_of_piece(name)));
+        write(folder_ / "room" / file_of_piece(piece), forged);
         write(path_, format_index(index_of("room", pieces)));
     }
 
@@ -228,6 +236,61 @@ TEST_F(Damage, TreesThatAreNone) {
     expect_refused("surface.vtp", "array 'LeafLevel' is missing");
     restore();
     static_cast<void>(load_solution(path_));
+}
+
+TEST_F(Damage, OfTextures) {
+    const auto forge_field = [this](const char* array, double value) {
+        forge_image("texture-2", [=](vtkImageData& image) {
+            image.GetFieldData()->GetArray(array)->SetComponent(0, 0, value);
+        });
+    };
+    forge_field("WrapU", 3);
+    expect_refused("texture-2.vti", "array 'WrapU': 3, at most 2");
+    restore();
+    forge_field("Encoding", 7);
+    expect_refused("texture-2.vti", "array 'Encoding': 7, at most 2");
+    restore();
+    forge_field("Encoding", 1);
+    expect_refused("texture-2.vti", "array 'Texels' is");
+    restore();
+    for (const double value : {-1.0, std::numeric_limits<double>::quiet_NaN()}) {
+        forge_image("texture-2", [=](vtkImageData& image) {
+            image.GetPointData()->GetArray("Texels")->SetComponent(0, 1, value);
+        });
+        expect_refused("room.vtm", "texture 2 texel");
+        restore();
+    }
+    forge_image("texture-0", [](vtkImageData& image) {
+        vtkNew<vtkImageData> empty;
+        image.DeepCopy(empty);
+    });
+    expect_refused("texture-0.vti", "expected a flat one");
+    restore();
+    forge_image("texture-0",
+                [](vtkImageData& image) { image.GetFieldData()->RemoveArray("Name"); });
+    expect_refused("texture-0.vti", "array 'Name' is missing");
+    restore();
+    replace("texture-0", files_.at("room/surface.vtp"));
+    expect_refused("texture-0.vti", "VTK cannot read");
+}
+
+TEST_F(Damage, OfTextureIndices) {
+    const auto forge_field = [this](const char* array, double value) {
+        forge("surface", [=](vtkPolyData& data) {
+            data.GetFieldData()->GetArray(array)->SetComponent(0, 0, value);
+        });
+    };
+    forge_field("MaterialTextures", 3);
+    expect_refused("room.vtm", "material 0 texture: 3");
+    restore();
+    forge_field("TextureCount", 4);
+    expect_refused("room.vtm", "the block 'texture-3' is missing");
+    restore();
+    forge_field("TextureCount", 4e9);
+    expect_refused("surface.vtp", "array 'TextureCount': 4000000000");
+    restore();
+    forge_field("TextureCount", 1);
+    expect_refused("room.vtm", "material 0 texture: 2");
 }
 
 TEST_F(Damage, RunRecord) {

@@ -3,6 +3,8 @@
 #include "support/random_hierarchy.h"
 #include <transillum/scene/photometry.h>
 
+#include <transillum/base/srgb.h>
+
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -39,6 +41,30 @@ struct Dice {
     }
 };
 
+/// Texels that bytes can hold, as sRGB or as they are, and texels that they cannot.
+std::vector<std::shared_ptr<const Texture>> random_textures(Dice& dice) {
+    std::vector<std::shared_ptr<const Texture>> textures;
+    for (int kind = 0; kind < 3; ++kind) {
+        Texture texture;
+        texture.name = dice.text();
+        texture.width = 1 + static_cast<int>(dice.below(9));
+        texture.height = 1 + static_cast<int>(dice.below(9));
+        texture.wrap_u = Texture::Wrap{static_cast<std::uint8_t>(dice.below(3))};
+        texture.wrap_v = Texture::Wrap{static_cast<std::uint8_t>(dice.below(3))};
+        const auto value = [&] {
+            const float share = static_cast<float>(dice.below(256)) / 255.0f;
+            return kind == 0 ? linear_from_srgb(share) : kind == 1 ? share : 3.0f * dice.real();
+        };
+        for (int i = 0; i < texture.width * texture.height; ++i) {
+            const float r = value(), g = value(), b = value();
+            texture.texels.emplace_back(r, g, b);
+        }
+        texture.build_levels();
+        textures.push_back(std::make_shared<const Texture>(std::move(texture)));
+    }
+    return textures;
+}
+
 Material random_material(Dice& dice, const Shape& shape, bool emits) {
     Material material;
     material.name = dice.text();
@@ -58,6 +84,11 @@ SurfaceMesh random_surface(Dice& dice, const Shape& shape) {
     SurfaceMesh mesh;
     mesh.materials = {random_material(dice, shape, false), random_material(dice, shape, true),
                       random_material(dice, shape, false)};
+    if (shape.uvs) {
+        mesh.textures = random_textures(dice);
+        mesh.materials[0].textures = {.diffuse = 2, .specular = 0};
+        mesh.materials[1].textures = {.roughness = 1, .emission = 2};
+    }
     mesh.objects = {dice.text(), dice.text()};
     mesh.fan_count = 5;
     mesh.grid = {-40, dice.number()};
@@ -195,6 +226,14 @@ auto tie_of(const Material& m) {
                     textures.specular, textures.roughness, textures.emission, reflects, emits,
                     opacity);
 }
+auto tie_of(const Texture::Level& l) {
+    const auto& [width, height, texels] = l;
+    return std::tie(width, height, texels);
+}
+auto tie_of(const Texture& t) {
+    const auto& [name, width, height, texels, wrap_u, wrap_v, levels] = t;
+    return std::tie(name, width, height, texels, wrap_u, wrap_v);
+}
 auto tie_of(const RootTriangle& t) {
     const auto& [vertices, fans, material, object, source_face] = t;
     return std::tie(vertices, fans, material, object, source_face);
@@ -240,6 +279,15 @@ void expect_equal_structs(const std::vector<T>& a, const std::vector<T>& b) {
     for (std::size_t i = 0; i < a.size(); ++i) EXPECT_TRUE(tie_of(a[i]) == tie_of(b[i])) << i;
 }
 
+void expect_equal(const std::vector<std::shared_ptr<const Texture>>& a,
+                  const std::vector<std::shared_ptr<const Texture>>& b) {
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        EXPECT_TRUE(tie_of(*a[i]) == tie_of(*b[i])) << "texture " << i;
+        expect_equal_structs(a[i]->levels, b[i]->levels);
+    }
+}
+
 void expect_equal(const SurfaceMesh& a, const SurfaceMesh& b) {
     const auto& [positions, triangles, uvs, fan_count, materials, textures, objects, grid] = a;
     const auto& [exponent, largest_move] = grid;
@@ -251,6 +299,7 @@ void expect_equal(const SurfaceMesh& a, const SurfaceMesh& b) {
     EXPECT_EQ(largest_move, b.grid.largest_move);
     expect_equal_structs(triangles, b.triangles);
     expect_equal_structs(materials, b.materials);
+    expect_equal(textures, b.textures);
 }
 
 void expect_equal(const DirectLight& a, const DirectLight& b) {

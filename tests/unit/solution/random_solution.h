@@ -14,7 +14,7 @@ struct Shape {
     int splits = 0;                    ///< rounds of splitting leaves at random after that
     int light_samples = 3;
     int cameras = 2;
-    bool uvs = false;
+    bool uvs = false;  ///< and textures
     bool one_sided = false;
     bool lit = true;
     int lights = 0;  ///< without extent

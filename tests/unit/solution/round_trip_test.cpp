@@ -1,11 +1,16 @@
 #include "random_solution.h"
 
+#include "solution/vtk_bytes.h"
+
 #include <transillum/base/error.h>
+#include <transillum/base/sampling.h>
+#include <transillum/base/srgb.h>
 #include <transillum/scene/photometry.h>
 #include <transillum/solution/load_solution.h>
 
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <limits>
 
 namespace transillum::test {
@@ -13,6 +18,12 @@ namespace transillum::test {
 namespace {
 
 class RoundTrip : public testing::TestWithParam<Shape> {};
+
+void spoil_texture(Solution& solution, void (*spoil)(Texture&)) {
+    Texture texture = *solution.surface.textures[1];
+    spoil(texture);
+    solution.surface.textures[1] = std::make_shared<const Texture>(texture);
+}
 
 std::map<std::string, std::string> without_record(std::map<std::string, std::string> files) {
     files.erase("room/run.json");
@@ -38,7 +49,8 @@ TEST_P(RoundTrip, GivesTheSameBytesAgain) {
     save_solution(load_solution(first / "room.vtm"), {}, third / "room.vtm");
     const auto files = without_record(files_below(first));
     const bool has_image = GetParam().environment == Environment::Kind::image;
-    EXPECT_EQ(files.size(), 5u + (GetParam().light_samples > 0) + has_image);
+    EXPECT_EQ(files.size(),
+              5u + (GetParam().light_samples > 0) + has_image + (GetParam().uvs ? 3u : 0u));
     EXPECT_EQ(files, without_record(files_below(second)));
     EXPECT_EQ(files, without_record(files_below(third)));
 }
@@ -85,6 +97,39 @@ TEST(Solution, CoverageOfDarkSidesLoadsAsZero) {
     const auto path = fresh_folder() / "room.vtm";
     save_solution(solution, {}, path);
     EXPECT_THAT(load_solution(path).coverage, testing::Each(0.0f));
+}
+
+TEST(Solution, KeepsTheTexturesThatAreUsed) {
+    Solution solution = random_solution({.uvs = true}, 1);
+    solution.surface.materials[0].textures.specular = -1;
+    const auto kept = solution.surface.textures[2];
+    const auto path = fresh_folder() / "room.vtm";
+    save_solution(solution, {}, path);
+    const SurfaceMesh surface = load_solution(path).surface;
+    ASSERT_EQ(surface.textures.size(), 2u);
+    EXPECT_EQ(surface.materials[0].textures.diffuse, 1);
+    EXPECT_EQ(surface.materials[1].textures.roughness, 0);
+    EXPECT_EQ(surface.materials[1].textures.emission, 1);
+    EXPECT_TRUE(surface.textures[1]->texels == kept->texels);
+}
+
+TEST(Solution, BytesOfAnImageAreStoredAsBytes) {
+    Solution solution = random_solution({.uvs = true}, 1);
+    const auto path = fresh_folder() / "room.vtm";
+    for (const float below_white : {1.0f, std::nextafter(1.0f, 0.0f)}) {
+        Texture image{.width = 256, .height = 256};
+        for (std::uint64_t i = 0; i < 65536; ++i)
+            image.texels.emplace_back(
+                linear_from_srgb(static_cast<float>(hash_bits(i) % 256) / 255.0f));
+        image.texels[7].y = below_white;
+        image.build_levels();
+        solution.surface.textures[0] = std::make_shared<const Texture>(image);
+        save_solution(solution, {}, path);
+        expect_equal(solution, load_solution(path));
+        const std::string file = files_below(path.parent_path()).at("room/texture-0.vti");
+        EXPECT_EQ(from_vti(file, "texture-0.vti")->GetScalarType(),
+                  below_white == 1.0f ? VTK_UNSIGNED_CHAR : VTK_FLOAT);
+    }
 }
 
 TEST(Solution, RunRecordSurvives) {
@@ -162,10 +207,21 @@ TEST(Solution, UnsoundIsNotSaved) {
         {"root 1 first leaf", [](Solution& s) { s.patches.roots[1].first_leaf = 2; }},
         {"relative error",
          [](Solution& s) { s.relative_error = std::numeric_limits<double>::infinity(); }},
+        {"texture 1 texel",
+         [](Solution& s) { spoil_texture(s, [](Texture& t) { t.texels[0].z = -1.0f; }); }},
+        {"texture 1 texels",
+         [](Solution& s) { spoil_texture(s, [](Texture& t) { t.texels.pop_back(); }); }},
+        {"texture 1 height",
+         [](Solution& s) { spoil_texture(s, [](Texture& t) { t.height = 0; }); }},
+        {"texture 1 is not there", [](Solution& s) { s.surface.textures[1] = nullptr; }},
+        {"material 0 texture: 3", [](Solution& s) { s.surface.materials[0].textures.diffuse = 3; }},
+        {"material 2 texture: -2",
+         [](Solution& s) { s.surface.materials[2].textures.emission = -2; }},
+        {"UVs: none", [](Solution& s) { s.surface.uvs.clear(); }},
         {"zero byte", [](Solution& s) { s.surface.objects[0] = std::string("a\0b", 3); }}};
     for (const auto& [message, spoil] : defects) {
         const auto folder = fresh_folder();
-        Solution solution = random_solution({}, 1);
+        Solution solution = random_solution({.uvs = true}, 1);
         spoil(solution);
         try {
             save_solution(solution, {}, folder / "room.vtm");

@@ -71,6 +71,15 @@ TEST(Viewer, SeesNamedBlocks) {
                 testing::ElementsAre("radiance", "lights", "surface"));
 }
 
+/// In a scene they would be walls as large as their pixels are many.
+TEST(Viewer, IsNotShownTheTextures) {
+    testing::internal::CaptureStderr();
+    Blocks blocks(random_solution({.uvs = true}, 1));
+    EXPECT_THAT(blocks.names, testing::ElementsAre("radiance", "incoming", "lights", "surface"));
+    EXPECT_EQ(blocks.reader->GetErrorCode(), 0u);
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
 TEST(Viewer, SeesTheArrays) {
     Blocks blocks(random_solution({.uvs = true}, 1));
     EXPECT_THAT(array_names(*blocks.pieces["radiance"]->GetCellData()),
