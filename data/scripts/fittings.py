@@ -129,9 +129,9 @@ def tap(height, reach, metal):
 
 def pot(radius, height, metal, black):
     body = lathe([(0, 0), (0.92 * radius, 0), (radius, 0.08 * height), (radius, height),
-                  (0.97 * radius, height), (0.96 * radius, 0.08 * height), (0, 0.05 * height)], 20, metal)
+                  (0.97 * radius, height), (0.96 * radius, 0.08 * height), (0, 0.05 * height)], 18, metal)
     lid = lathe([(0, 0), (1.02 * radius, 0), (1.02 * radius, 0.006), (0.6 * radius, 0.022), (0.12 * radius, 0.03),
-                 (0, 0.03)], 20, metal).moved(y=height + GAP)
+                 (0, 0.03)], 18, metal).moved(y=height + GAP)
     knob = ball(0.016, 6, 10, black).moved(y=height + 0.030 + 0.018 + GAP)
     ears = joined(bar_handle((-0.04, height * 0.75, radius + 0.008), (0.04, height * 0.75, radius + 0.008),
                              black).turned(t) for t in (90, -90))

@@ -52,7 +52,7 @@ def sofa(seats, cloth, accent, wood):
               for s in (-1, 1)]
     for i in range(seats):
         x = 0.62 * (i - (seats - 1) / 2)
-        parts.append(cushion(0.61, 0.19, 0.60, 0.06, 2, cloth, 2, 0.12).moved(x, 0.225, 0.105))
+        parts.append(cushion(0.61, 0.19, 0.60, 0.06, 2, cloth, 2, 0.12).moved(x, 0.236, 0.105))
         parts.append(cushion(0.58, 0.40, 0.13, 0.05, 2, cloth, 2, 0.25)
                      .turned(-8, "x").moved(x, 0.455, -0.045))
     parts.append(cushion(0.36, 0.34, 0.12, 0.05, 1, accent, 3, 0.3)
@@ -188,7 +188,7 @@ def bowl(radius, material):
 
 def plate(radius, material):
     return lathe([(0, 0), (0.6 * radius, 0), (radius, 0.018), (radius, 0.022), (0.62 * radius, 0.006),
-                  (0, 0.006)], 16, material)
+                  (0, 0.006)], 14, material)
 
 
 def cup(material):

@@ -113,7 +113,7 @@ def furnish_living(house):
     house.put("armchair", furniture.sofa(1, "orange", "linen", "walnut"), x + 2.0, z + 0.1, 280)
     house.put("sofa_table", furniture.table(1.1, 0.6, 0.42, "walnut"), x, z + 0.1, 0, 0.011)
     house.put("living_bowl", furniture.bowl(0.15, "clay"), x - 0.25, z + 0.12, 0, 0.433)
-    house.put("living_fruit", furniture.fruit(5, 0.063, ("orange", "red", "yellow")), x - 0.25, z + 0.12, 0, 0.465)
+    house.put("living_fruit", furniture.fruit(5, 0.063, ("orange", "red", "yellow")), x - 0.25, z + 0.12, 0, 0.475)
     house.put("living_cup", furniture.cup("blue"), x + 0.3, z + 0.05, 30, 0.433)
     for i, dx in enumerate((0.0, 0.22, 0.25)):
         house.put("magazine_%d" % i, box(-0.105, 0.105, 0, 0.006, -0.14, 0.14, BOOKS[i]), x + 0.12 + 0.02 * i,
@@ -209,7 +209,7 @@ def furnish_hall(house):
     for i in range(5):
         house.put("hook_%d" % i, tube([(0, 0, 0.001), (0, -0.01, 0.05), (0, 0.03, 0.07)], 0.006, 8, "steel"),
                   3.926, 3.75 + 0.2 * i, 90, 1.715)
-    house.put("hall_plant", furniture.plant(1.1, 20, house.random, "porcelain", "soil", "leaf"), 6.75, 0.75)
+    house.put("hall_plant", furniture.plant(1.1, 20, house.random, "porcelain", "soil", "leaf"), 6.4, 1.0)
     house.put("hall_picture", furniture.picture(0.5, 0.4, "walnut", ("sky", "sand", "green")), 5.885, 4.747, 180, 1.4)
 
 
@@ -284,7 +284,7 @@ def build_roof(house):
     attic = Shape([(x, base + furniture.GAP + h, -u) for x in (x0, x1) for u, h in gable],
                   [(f, "plaster") for f in ([0, 2, 1], [3, 4, 5], [0, 1, 4, 3], [1, 2, 5, 4], [2, 0, 3, 5])])
     house.scene.add("attic", attic if attic.volume() > 0 else flipped(attic))
-    rows, columns = 12, 8
+    rows, columns = 11, 8
     run = ridge - z0 + over
     slope = rise / (ridge - z0)
     width = (x1 - x0 + 2 * over) / columns
@@ -337,7 +337,7 @@ def build_garden(house):
     for i, (dx, dz) in enumerate(((0.0, -0.8), (0.0, 0.8))):
         house.put("garden_chair_%d" % i, furniture.chair("oak", "linen"), 3.4 + dx, 11.5 + dz, 180 if dz > 0 else 0, -0.05)
     for i, (x, z, h) in enumerate(((-2.6, 3.0, 5.0), (14.6, -1.2, 4.4), (14.4, 12.6, 5.4))):
-        house.put("tree_%d" % i, tree(h, house.random, 20), x, z, 33 * i, -0.202)
+        house.put("tree_%d" % i, tree(h, house.random, 16), x, z, 33 * i, -0.202)
     for i, x in enumerate((1.9, 10.1)):
         house.put("bush_%d" % i, furniture.plant(0.8, 12, house.random, "clay", "soil", "leaf"), x, -0.7, 50 * i, -0.202)
     for i, (x, z) in enumerate(((4.5, -1.6), (6.3, -1.6), (4.5, -3.4), (6.3, -3.4))):
