@@ -46,10 +46,10 @@ def chicken(material, head, comb, tail, cell):
         bodies += [
             (ellipsoid((-8, 102, side * 43), (52, 30, 16), 22), 10),
             (limb((4, 62, side * 20), (8, 46, side * 23), 19, 11), 12),
-            (limb((8, 46, side * 23), (4, 9, side * 25), 9, 8), 6),
+            (limb((8, 46, side * 23), (4, 11, side * 25), 9, 11), 6),
         ]
-        for toe in ((36, 8, side * 37), (40, 8, side * 19), (-20, 8, side * 25)):
-            bodies.append((limb((4, 9, side * 25), toe, 8, 7), 6))
+        for toe in ((38, 9, side * 40), (42, 9, side * 16), (-22, 9, side * 25)):
+            bodies.append((limb((4, 10, side * 25), toe, 9, 8), 6))
     return surface_of(blended(bodies), (-135, -6, -75), (170, 285, 75), cell, material)
 
 
@@ -100,7 +100,7 @@ def main():
     arguments = parse_arguments(
         __doc__,
         ("--closed", {"action": "store_true", "help": "add the front wall"}),
-        ("--cell", {"type": float, "default": 8.0, "metavar": "MM",
+        ("--cell", {"type": float, "default": 8.3, "metavar": "MM",
                     "help": "about the chickens' triangles' edges (default: %(default)s)"}))
     name = "cornell_chickens_closed.obj" if arguments.closed else "cornell_chickens.obj"
     write_scene(make_chickens(arguments.closed, arguments.cell), Path(arguments.folder) / name)

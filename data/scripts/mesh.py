@@ -254,9 +254,10 @@ def prism(outline, y0, y1, material=None):
 
 
 def cushion(x, y, z, radius, steps, material=None, flat=1, bulge=0.0):
-    """A box of that size with round edges, standing on the origin. Its sides, of `flat` squared
-    pieces, may bulge."""
+    """A box of that size with round edges, standing on the origin. Its sides are of `flat` squared
+    pieces; along its thinnest axis it may bulge."""
     half = (x / 2, y / 2, z / 2)
+    thin = half.index(min(half))
     arcs = [math.tan(math.radians(45 * i / steps)) for i in range(1, steps + 1)]
     # (place along the core's side, slope of the arc beyond it)
     grid = ([(-1, -a) for a in reversed(arcs)] + [(2 * i / flat - 1, 0) for i in range(flat + 1)]
@@ -268,9 +269,8 @@ def cushion(x, y, z, radius, steps, material=None, flat=1, bulge=0.0):
         for i, (side, slope) in ((axis, (sign, sign)), ((axis + 1) % 3, a), ((axis + 2) % 3, b)):
             core[i], out[i] = side * (half[i] - radius), slope
         p = list(add(core, scale(normalized(out), radius)))
-        for i in range(3):
-            j, k = (i + 1) % 3, (i + 2) % 3
-            p[i] += bulge * p[i] * (1 - (p[j] / half[j]) ** 2) * (1 - (p[k] / half[k]) ** 2)
+        j, k = (thin + 1) % 3, (thin + 2) % 3
+        p[thin] *= 1 + bulge * (1 - (p[j] / half[j]) ** 2) * (1 - (p[k] / half[k]) ** 2)
         key = tuple(round(c, 7) for c in p)
         if key not in numbers:
             numbers[key] = len(shape.vertices)
