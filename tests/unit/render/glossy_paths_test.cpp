@@ -262,7 +262,7 @@ TEST_P(Glossy, SharedPathsHaveTheMeanOfUnsharedOnes) {
     camera.vertical_fov = 50.0;
     const Estimate shared = seen(mesh, {}, camera, 64, 0, 12);
     const Estimate alone = seen(mesh, {}, camera, 1 << 13);
-    EXPECT_LT(shared.error + alone.error, 0.02 * alone.mean);
+    EXPECT_LT(shared.error + alone.error, 0.015 * alone.mean);
     EXPECT_NEAR(shared.mean, alone.mean, 5.0 * std::hypot(shared.error, alone.error));
 }
 
