@@ -1,12 +1,16 @@
 /// Solution files: VTK XML, readable by ParaView and any VTK program.
 ///
-///   NAME.vtm            written last and atomically: the index; its presence says the solution is
-///   whole NAME/radiance.vtp   one cell a patch that reflects or emits and is not dark throughout
-///   its root's side NAME/incoming.vtp   per patch and light sample: what arrives by first shot
-///   (absent without light samples) NAME/lights.vtp     the light samples, lights without extent
-///   and environment NAME/environment.vtp its image (absent without) NAME/surface.vtp    the
-///   root triangles NAME/run.json       timings, threads, command line: all that may differ between
-///   two equal solutions
+///   NAME.vtm              written last and atomically: the index; its presence says that the
+///                         solution is whole
+///   NAME/radiance.vtp     one cell a patch that reflects or emits and is not dark throughout its
+///                         root's side
+///   NAME/incoming.vtp     per patch and light sample: what arrives by first shot (absent without
+///                         light samples)
+///   NAME/lights.vtp       the light samples, the lights without extent and the environment
+///   NAME/environment.vtp  the environment's image (absent without)
+///   NAME/surface.vtp      the root triangles
+///   NAME/run.json         timings, threads, command line: all that may differ between two equal
+///                         solutions
 #pragma once
 
 #include <transillum/solution/solution.h>

@@ -28,7 +28,8 @@ void write(const fs::path& file, const std::string& bytes) {
 class Damage : public testing::Test {
 protected:
     Damage() : folder_(fresh_folder()), path_(folder_ / "room.vtm") {
-        save_solution(random_solution({}, 1), {"bake", 1, {}}, path_);
+        const Shape shape{.lights = 2, .environment = Environment::Kind::image};
+        save_solution(random_solution(shape, 1), {"bake", 1, {}}, path_);
         files_ = files_below(folder_);
         files_.erase("room");
         files_.erase("room/run.json");
@@ -51,7 +52,7 @@ protected:
     /// Rewrites a piece, checksum and all: the damage that only the checks of values can find.
     void forge(const std::string& piece, const std::function<void(vtkPolyData&)>& change) const {
         std::vector<std::pair<std::string, std::string>> pieces;
-        for (const char* name : {"radiance", "incoming", "lights", "surface"}) {
+        for (const char* name : {"radiance", "incoming", "lights", "environment", "surface"}) {
             std::string bytes = files_.at("room/" + std::string(name) + ".vtp");
             if (name == piece) {
                 const auto data = from_vtp(bytes, name);
@@ -199,6 +200,31 @@ TEST_F(Damage, ValuesOutOfRange) {
     restore();
     forge_cell("surface", "Material", 9);
     expect_refused("room.vtm", "root 1 material: index 9 of 3");
+}
+
+TEST_F(Damage, LightsOutOfRange) {
+    const auto forge_field = [this](const char* piece, const char* array, double value) {
+        restore();
+        forge(piece, [=](vtkPolyData& data) {
+            data.GetFieldData()->GetArray(array)->SetComponent(0, 0, value);
+        });
+    };
+    forge_field("lights", "LightKind", 3);
+    expect_refused("room.vtm", "light 0 kind: index 3 of 3");
+    forge_field("lights", "LightPhotometry", 7);
+    expect_refused("lights.vtp", "array 'LightPhotometry': 7 of 1");
+    forge_field("lights", "PhotometryCandelaCount", 4e9);
+    expect_refused("lights.vtp", "array 'PhotometryCandela' is");
+    forge_field("lights", "PhotometryVertical", 200.0);
+    expect_refused("room.vtm", "photometry, vertical angle");
+    forge_field("lights", "EnvironmentKind", 5);
+    expect_refused("room.vtm", "environment kind: index 5 of 5");
+    forge_field("environment", "ImageSize", -1);
+    expect_refused("environment.vtp", "array 'ImageSize': -1 x 3 pixels");
+    forge_field("environment", "ImageSize", 2e9);
+    expect_refused("environment.vtp");
+    forge_field("environment", "ImageRadiance", std::numeric_limits<double>::infinity());
+    expect_refused("room.vtm", "environment texel");
 }
 
 TEST_F(Damage, RunRecord) {
