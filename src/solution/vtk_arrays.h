@@ -70,8 +70,9 @@ struct ArrayReader {
 
     template <class Value>
     [[nodiscard]] std::vector<Value> read(const char* name, std::size_t count) const {
-        std::vector<Value> values(count);
+        // Found first: a damaged count must not ask for memory.
         const Part<Value>* parts = find<Part<Value>>(name, count, part_count<Value>);
+        std::vector<Value> values(count);
         if (count > 0) std::memcpy(values.data(), parts, count * sizeof(Value));
         return values;
     }

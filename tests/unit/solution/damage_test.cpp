@@ -30,7 +30,9 @@ void write(const fs::path& file, const std::string& bytes) {
 class Damage : public testing::Test {
 protected:
     Damage() : folder_(fresh_folder()), path_(folder_ / "room.vtm") {
-        save_solution(random_solution({.uvs = true, .splits = 2}, 1), {"bake", 1, {}}, path_);
+        const Shape shape{
+            .lights = 2, .environment = Environment::Kind::image, .uvs = true, .splits = 2};
+        save_solution(random_solution(shape, 1), {"bake", 1, {}}, path_);
         files_ = files_below(folder_);
         files_.erase("room");
         files_.erase("room/run.json");
@@ -65,7 +67,7 @@ protected:
     void replace(const std::string& piece, const std::string& forged) const {
         std::vector<std::pair<std::string, std::string>> pieces;
         for (const char* name :
-             {"radiance", "incoming", "lights", "surface", "texture-0", "texture-1", "texture-2"})
+             {"radiance", "incoming", "lights", "environment", "surface", "texture-0", "texture-1", "texture-2"})
             pieces.emplace_back(name,
                                 name == piece ? forged : files_.at("room/" + file_of_piece(name)));
         write(folder_ / "room" / file_of_piece(piece), forged);
