@@ -1,6 +1,7 @@
 // Throughput of the transport against rays, and its scaling with leaves and triangles. Compare
 // within one run.
 #include "benchmarks/scenes.h"
+#include "support/random_hierarchy.h"
 
 #include <transillum/base/sampling.h>
 #include <transillum/transport/iterate.h>
@@ -27,11 +28,12 @@ const SurfaceMesh& scene_of(std::int64_t number) {
     return scenes.at(static_cast<std::size_t>(number));
 }
 
-/// Arguments: scene, level of every root.
+/// Arguments: scene, level of every root, rounds after it in which a third of the leaves split.
 void whole_iteration(benchmark::State& state) {
     const SurfaceMesh& mesh = scene_of(state.range(0));
-    const PatchHierarchy patches = subdivide_to_levels(
-        std::vector<int>(mesh.triangles.size(), static_cast<int>(state.range(1))));
+    const PatchHierarchy patches = testing_support::random_hierarchy(
+        std::vector<int>(mesh.triangles.size(), static_cast<int>(state.range(1))),
+        static_cast<int>(state.range(2)), 1);
     const std::uint32_t n = patches.patch_count();
     const PatchSources sources{std::vector<Spectrum>(n, Spectrum(1.0f)),
                                std::vector<Spectrum>(n, Spectrum(0.0f)),
@@ -120,15 +122,17 @@ BENCHMARK(incoherent_rays)
     ->UseRealTime()
     ->Unit(benchmark::kMillisecond);
 BENCHMARK(whole_iteration)
-    ->ArgNames({"scene", "level"})
-    ->Args({0, 4})
-    ->Args({0, 5})
-    ->Args({0, 6})
-    ->Args({1, 0})
-    ->Args({2, 0})
-    ->Args({2, 1})
-    ->Args({2, 2})
-    ->Args({3, 0})
+    ->ArgNames({"scene", "level", "splits"})
+    ->Args({0, 4, 0})
+    ->Args({0, 4, 1})
+    ->Args({0, 5, 0})
+    ->Args({0, 6, 0})
+    ->Args({1, 0, 0})
+    ->Args({2, 0, 0})
+    ->Args({2, 0, 1})
+    ->Args({2, 1, 0})
+    ->Args({2, 2, 0})
+    ->Args({3, 0, 0})
     ->UseRealTime()
     ->Unit(benchmark::kMillisecond);
 
