@@ -8,10 +8,10 @@ namespace {
 
 /// Corners of a leaf in barycentric coordinates of its root.
 std::array<glm::vec2, 3> corners_in_root(const PatchHierarchy& patches, std::uint32_t leaf) {
-    const float unit = std::ldexp(1.0f, -patches.roots[patches.root_of_leaf[leaf]].level);
+    const LeafCorners lattice = leaf_corners(patches, leaf);
+    const float unit = std::ldexp(1.0f, -lattice.level);
     std::array<glm::vec2, 3> corners;
-    const auto lattice = leaf_corners(patches, leaf);
-    for (std::size_t i = 0; i < 3; ++i) corners[i] = unit * glm::vec2(lattice[i]);
+    for (std::size_t i = 0; i < 3; ++i) corners[i] = unit * glm::vec2(lattice.b[i]);
     return corners;
 }
 

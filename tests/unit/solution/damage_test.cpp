@@ -31,7 +31,7 @@ class Damage : public testing::Test {
 protected:
     Damage() : folder_(fresh_folder()), path_(folder_ / "room.vtm") {
         const Shape shape{
-            .lights = 2, .environment = Environment::Kind::image, .uvs = true, .splits = 2};
+            .splits = 2, .uvs = true, .lights = 2, .environment = Environment::Kind::image};
         save_solution(random_solution(shape, 1), {"bake", 1, {}}, path_);
         files_ = files_below(folder_);
         files_.erase("room");
