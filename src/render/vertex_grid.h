@@ -22,7 +22,7 @@ struct VertexGrid {
 
     std::vector<std::array<std::uint32_t, 3>> leaf_vertices;  ///< as leaf_corners
     std::vector<glm::dvec3> positions;                        ///< one a vertex
-    std::vector<Hanging> hanging;  ///< those that hang on others come after them
+    std::vector<Hanging> hanging;               ///< those that hang on others come after them
     std::vector<std::uint32_t> first_touching;  ///< one a vertex, and the end
     std::vector<std::uint32_t> touching;        ///< leaves, vertex by vertex
     std::vector<glm::dvec3> leaf_centres;

@@ -14,12 +14,16 @@ constexpr std::uint64_t depth_bits = 0xffffffff00000000u;
 /// Planes of triangles that meet at an edge differ by this much there.
 constexpr double depth_rounding = 0x1p24;
 
-std::array<std::uint32_t, block> leaves_of_block(int level, float s0, float ds, float t0,
-                                                 float dt) {
+/// Inlined, so that it is compiled for the target of each of the callers' versions.
+/// \param cells table of a mixed root, or none
+[[gnu::always_inline]] inline std::array<std::uint32_t, block> leaves_of_block(
+    int level, const std::uint32_t* cells, float s0, float ds, float t0, float dt) {
     std::array<std::uint32_t, block> leaves;
     for (int i = 0; i < block; ++i)
         leaves[i] =
             leaf_in_root(level, s0 + ds * static_cast<float>(i), t0 + dt * static_cast<float>(i));
+    if (cells != nullptr)
+        for (std::uint32_t& leaf : leaves) leaf = cells[leaf];
     return leaves;
 }
 
@@ -137,11 +141,9 @@ void TransilluminationBuffer::draw(std::uint32_t root, const TileRect& rect, Scr
             // Whole blocks, of which the next span overwrites what is too much: short spans would
             // mispredict a loop's end.
             for (; length > 0; length -= block) {
-                std::array<std::uint32_t, block> leaf =
+                const std::array<std::uint32_t, block> leaf =
                     patches.level == 0 ? std::array<std::uint32_t, block>{}
-                                       : leaves_of_block(patches.level, s0, ds, t0, dt);
-                if (cells != nullptr)
-                    for (std::uint32_t& l : leaf) l = cells[l];
+                                       : leaves_of_block(patches.level, cells, s0, ds, t0, dt);
                 for (int i = 0; i < block; ++i)
                     out[i] = ((z + ramp[i]) & depth_bits) | (low + leaf[i]);
                 for (int i = 0; i < block; ++i) pixel[i] = static_cast<std::uint16_t>(at + i);
