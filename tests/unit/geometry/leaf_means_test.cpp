@@ -92,7 +92,7 @@ TEST(LeafMeans, LeavesShareOutTheMeanOfTheImage) {
             const PatchHierarchy patches = subdivide_to_levels(levels);
             SpectrumSum sum(0.0);
             for (std::uint32_t leaf = 0; leaf < patches.leaf_count; ++leaf)
-                sum += leaf_area(mesh, patches, patches.root_of_leaf[leaf]) *
+                sum += area_of_leaf(mesh, patches, leaf) *
                        SpectrumSum(texture_mean_over_leaf(mesh, patches, texture, leaf));
             expect_near(Spectrum(sum), texture.mean(), 1e-6f);
         }
@@ -111,7 +111,7 @@ TEST(LeafMeans, OfALinearTextureAreItsValuesAtTheCentroids) {
     for (std::uint32_t leaf = 0; leaf < patches.leaf_count; ++leaf) {
         glm::vec2 centroid(0.0f);
         bool is_inner = true;
-        for (const glm::ivec2 b : leaf_corners(patches, leaf)) {
+        for (const glm::ivec2 b : leaf_corners(patches, leaf).b) {
             const glm::dvec3 p = point_of_root(mesh, patches.root_of_leaf[leaf], b, 4);
             is_inner &= p.x >= 0.25 && p.x <= 0.75 && p.y >= 0.25 && p.y <= 0.75;
             centroid += glm::vec2(p) / 3.0f;

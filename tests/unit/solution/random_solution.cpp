@@ -254,10 +254,6 @@ auto tie_of(const Photometry& p) {
     const auto& [name, vertical, horizontal, candela] = p;
     return std::tie(name, vertical, horizontal, candela);
 }
-auto tie_of(const Texture& t) {
-    const auto& [name, width, height, texels, wrap_u, wrap_v] = t;
-    return std::tie(name, width, height, texels, wrap_u, wrap_v);
-}
 auto tie_of(const GlossySide& s) {
     const auto& [root, back, brdf, projection, bin_level, first_patch, leaf_count, first_element] =
         s;
