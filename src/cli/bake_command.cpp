@@ -8,7 +8,11 @@
 
 #include <fmt/format.h>
 
+#include <unistd.h>
+#include <filesystem>
+#include <fstream>
 #include <memory>
+#include <optional>
 
 namespace transillum::cli {
 
@@ -21,6 +25,8 @@ struct BakeArguments {
     SceneOptions scene;
     std::string output;
     BakeOptions bake;
+    double memory = 0.0;
+    bool keep_phases = false;
     int threads = 0;
 };
 
@@ -74,6 +80,34 @@ void add_options(CLI::App& command, BakeArguments& a) {
         ->capture_default_str()
         ->group(patches);
 
+    const char* const refinement = "Refinement";
+    auto& refine = a.bake.refinement;
+    command
+        .add_option("--refine", refine.phases,
+                    "most phases, each of which splits leaves that are too coarse")
+        ->check(CLI::Range(0, max_subdivision_level))
+        ->capture_default_str()
+        ->group(refinement);
+    command
+        .add_option("--refine-tolerance", refine.tolerance,
+                    "of the radiance of quarters that meet, over the scene's mean")
+        ->check(within(1e-6, 1e6))
+        ->capture_default_str()
+        ->group(refinement);
+    command
+        .add_option("--max-leaves", refine.max_leaves,
+                    "of the refined patches; 0: four times as many as at first")
+        ->check(CLI::Range(0u, 1u << 28))
+        ->capture_default_str()
+        ->group(refinement);
+    add_choice(command, "--refine-for", refine.direct, {{"stored", true}, {"traced", false}},
+               "how pictures are going to show direct light: stored takes its shadows' edges along")
+        ->group(refinement);
+    command
+        .add_flag("--phases", a.keep_phases,
+                  "keep every phase: NAME-phases.pvd (and a folder) for ParaView to play")
+        ->group(refinement);
+
     const char* const method = "Method";
     add_choice(command, "--first-shot", a.bake.light.first_shot,
                {{"auto", FirstShot::automatic},
@@ -95,6 +129,16 @@ void add_options(CLI::App& command, BakeArguments& a) {
         .add_option("--resolution", a.bake.resolution,
                     "pixels across the transillumination buffer; 0: three a leaf's edge")
         ->check(CLI::Range(0, 8192))
+        ->capture_default_str()
+        ->group(method);
+    add_choice(command, "--brdf-bins", a.bake.bins.level,
+               {{"auto", -1}, {"1", 0}, {"4", 1}, {"16", 2}, {"64", 3}},
+               "direction bins of glossy patches; auto: by the width and weight of the lobe")
+        ->group(method);
+    command
+        .add_option("--memory", a.memory,
+                    "most GiB that tables may take; 0: nine tenths of the machine's")
+        ->check(not_negative())
         ->capture_default_str()
         ->group(method);
     add_choice(command, "--averaging", iteration.averaging,
@@ -119,7 +163,38 @@ void print_summary(const Solution& s, const std::string& path) {
         s.iterations, 100.0 * s.relative_error, s.interrupted ? ", interrupted" : "");
 }
 
-int run(const BakeArguments& a, const Common& common) {
+/// Saves phases as they come, and the list that ParaView plays.
+class PhaseKeeper {
+public:
+    explicit PhaseKeeper(const std::filesystem::path& output)
+        : folder_(output.parent_path() / (output.stem().string() + "-phases")),
+          list_(folder_.string() + ".pvd") {
+        std::filesystem::create_directories(folder_);
+    }
+    void keep(const Solution& phase, int number, const std::string& command_line) {
+        const std::string name = fmt::format("phase-{:02}.vtm", number);
+        save_solution(phase, {command_line, 0, {}}, folder_ / name);
+        entries_ += fmt::format("    <DataSet timestep=\"{}\" file=\"{}/{}\"/>\n", number,
+                                folder_.filename().string(), name);
+        std::ofstream list(list_);
+        list << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\">\n"
+             << "  <Collection>\n"
+             << entries_ << "  </Collection>\n</VTKFile>\n";
+        if (!list.flush()) throw IoError(list_, "cannot be written");
+    }
+
+private:
+    std::filesystem::path folder_;
+    std::string list_, entries_;
+};
+
+std::uint64_t allowed_memory(double gibibytes) {
+    if (gibibytes > 0.0) return static_cast<std::uint64_t>(gibibytes * 0x1p30);
+    return static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) *
+           static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)) / 10 * 9;
+}
+
+int run(BakeArguments& a, const Common& common) {
     Console console(common.quiet);
     if (!a.output.ends_with(".vtm"))
         throw UsageError("--output " + a.output + "; accepted: a name that ends in .vtm");
@@ -127,8 +202,18 @@ int run(const BakeArguments& a, const Common& common) {
         throw UsageError("--resolution " + std::to_string(a.bake.resolution) +
                          "; accepted: 0 or 16 to 8192");
     require_writable(a.output);
+    if (a.keep_phases && a.bake.refinement.phases == 0)
+        throw UsageError("--phases without any; accepted: together with --refine");
+    a.bake.memory = allowed_memory(a.memory);
     const Workers workers(a.threads);
     const Scene scene = read_scene(a.scene, console);
+    std::optional<PhaseKeeper> keeper;
+    if (a.keep_phases) {
+        keeper.emplace(a.output);
+        a.bake.refinement.keep_phase = [&](const Solution& phase, int number) {
+            keeper->keep(phase, number, common.command_line);
+        };
+    }
     RunRecord record;
     record.command_line = common.command_line;
     Solution solution = bake(scene, a.bake, workers, console, &record);

@@ -1,6 +1,7 @@
 #include <transillum/base/error.h>
 #include <transillum/base/sampling.h>
 #include <transillum/first_shot/light_samples.h>
+#include <transillum/geometry/leaf_means.h>
 
 #include <algorithm>
 #include <bit>
@@ -76,6 +77,15 @@ glm::dvec3 point_in(const SurfaceMesh& mesh, std::uint32_t root, double u, doubl
            b2 * mesh.positions[t[2]];
 }
 
+/// Of a textured root its mean, so that its flux is right.
+Spectrum emission_of(const SurfaceMesh& mesh, std::uint32_t root) {
+    const Material& m = mesh.materials[mesh.triangles[root].material];
+    if (m.textures.emission < 0) return m.emission;
+    const Texture& texture = *mesh.textures[static_cast<std::size_t>(m.textures.emission)];
+    return texture.mean_over(
+        {uv_at(mesh, root, 0, 0), uv_at(mesh, root, 1, 0), uv_at(mesh, root, 0, 1)});
+}
+
 void add_samples(const SurfaceMesh& mesh, const Luminaire& luminaire, int count, std::uint64_t seed,
                  std::vector<LightSample>& samples) {
     const double piece = area_of(luminaire) / count;
@@ -90,7 +100,7 @@ void add_samples(const SurfaceMesh& mesh, const Luminaire& luminaire, int count,
             point_in(mesh, side->root, sobol_owen(index, 0, seed), sobol_owen(index, 1, seed));
         s.normal = normal_of(mesh, side->root) * (side->back ? -1.0 : 1.0);
         s.area = piece;
-        s.emitted = mesh.materials[mesh.triangles[side->root].material].emission;
+        s.emitted = emission_of(mesh, side->root);
         s.root = side->root;
         s.back = side->back;
         samples.push_back(s);

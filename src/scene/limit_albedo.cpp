@@ -81,6 +81,7 @@ void limit_albedo(Scene& scene, float max_albedo, Monitor& monitor) {
                 << " % of the light it reflects is removed";
         monitor.warn(message.str());
     }
+    drop_unused_textures(scene);
 }
 
 }  // namespace transillum

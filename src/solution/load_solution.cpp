@@ -1,10 +1,12 @@
 #include <transillum/solution/load_solution.h>
 
 #include "check_solution.h"
+
 #include "checksum.h"
 #include "index_file.h"
 #include "pieces/pieces.h"
 #include "replace_files.h"
+#include "solution/leaf_colours.h"
 #include "vtk_bytes.h"
 
 #include <transillum/base/error.h>
@@ -92,6 +94,7 @@ Solution load_solution(const Path& path) {
     if (const std::string defect = find_defect(solution); !defect.empty()) {
         throw InputError(path.string(), defect);
     }
+    average_textures(solution);
     return solution;
 }
 

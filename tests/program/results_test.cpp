@@ -41,6 +41,60 @@ TEST_F(Results, DoNotDependOnTheNumberOfThreads) {
     }
 }
 
+TEST_F(Results, OfRefinedPatchesDoNotDependOnTheNumberOfThreads) {
+    const std::string options = "--refine 2 --refine-tolerance 0.3 --threads ";
+    bake_cornell("one.vtm", options + "1");
+    bake_cornell("two.vtm", options + "2");
+    for (const char* piece : {"radiance.vtp", "surface.vtp"})
+        EXPECT_TRUE(read(std::string("one/") + piece) == read(std::string("two/") + piece))
+            << piece;
+    EXPECT_GT(load_solution(folder_ / "one.vtm").patches.mixed_roots.size(), 0u);
+}
+
+// Every phase is a solution, and a list says in which order they come.
+TEST_F(Results, KeepThePhasesOfRefinement) {
+    bake_cornell("box.vtm", "--refine 2 --phases");
+    const std::string list = read("box-phases.pvd");
+    std::uint32_t leaves = 0;
+    for (const char* number : {"0", "1"}) {
+        const std::string name = std::string("box-phases/phase-0") + number + ".vtm";
+        EXPECT_NE(list.find(std::string("timestep=\"") + number + "\" file=\"" + name + '"'),
+                  std::string::npos)
+            << list;
+        const Solution phase = load_solution(folder_ / name);
+        EXPECT_GT(phase.patches.leaf_count, leaves);
+        leaves = phase.patches.leaf_count;
+    }
+    const Outcome o = run(std::string("bake ") + cornell + " -o other.vtm --phases");
+    EXPECT_EQ(o.exit_code, 2);
+    EXPECT_NE(o.err.find("--refine"), std::string::npos) << o.err;
+}
+
+// What tables would need is known before it is taken.
+TEST_F(Results, AreRefusedWhereTheyWouldTakeTooMuchMemory) {
+    const Outcome o = run(std::string("bake ") + cornell + " -o box.vtm --memory 0.001");
+    EXPECT_EQ(o.exit_code, 2);
+    EXPECT_NE(o.err.find("light samples"), std::string::npos) << o.err;
+    EXPECT_NE(o.err.find("accepted: 0.00 in all"), std::string::npos) << o.err;
+}
+
+// A red floor under a uniform sky sends back its share of it.
+TEST_F(Results, OfAnOpenSceneSeeTheEnvironment) {
+    write("floor.obj",
+          "mtllib floor.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 1 0 -1\nv 0 0 -1\nf 1 2 3 4\n");
+    write("floor.mtl", "newmtl m\nKd 0.5 0.25 0\n");
+    const Outcome o =
+        run("-q bake floor.obj -o floor.vtm --leaves 100 --environment uniform:2,2,2");
+    ASSERT_EQ(o.exit_code, 0) << o.err;
+    const Solution floor = load_solution(folder_ / "floor.vtm");
+    for (std::uint32_t p = 0; p < floor.patches.patch_count(); ++p) {
+        const Spectrum radiance = floor.finite_element_radiance(p);
+        EXPECT_NEAR(radiance.x, 1.0f, 1e-3f);
+        EXPECT_NEAR(radiance.y, 0.5f, 1e-3f);
+        EXPECT_EQ(radiance.z, 0.0f);
+    }
+}
+
 TEST_F(Results, DependOnTheSeed) {
     bake_cornell("a.vtm", "--seed 1");
     bake_cornell("b.vtm", "--seed 2");

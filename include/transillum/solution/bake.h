@@ -11,16 +11,32 @@
 #include <transillum/solution/solution.h>
 #include <transillum/transport/iterate.h>
 
+#include <functional>
+
 namespace transillum {
+
+/// Refinement in phases (paper §3.2): every phase finds what the children of all leaves would
+/// receive, from twice as many directions as the one before, and splits the leaves that are too
+/// coarse.
+struct RefinementOptions {
+    int phases = 0;                ///< most; 0: patches stay as they are subdivided
+    double tolerance = 0.1;        ///< see SplitOptions
+    std::uint32_t max_leaves = 0;  ///< 0: four times as many as before
+    bool direct = true;  ///< also by the first shot's light, for pictures that show it as stored
+    /// Given every phase's solution on the children; may be empty.
+    std::function<void(const Solution& phase, int number)> keep_phase;
+};
 
 struct BakeOptions {
     SurfaceOptions surface;
     SubdivisionOptions subdivision;
     LightSampleOptions light;
     BinOptions bins;
+    RefinementOptions refinement;
     IterationOptions iteration;  ///< its pixel size and seed are set from the fields below
     int hemicube_resolution = 512;
     int resolution = 0;  ///< pixels across the transillumination buffer; 0: three a leaf's edge
+    std::uint64_t memory = 0;  ///< most that tables may take [bytes]; 0: no limit
     std::uint64_t seed = 1;
 };
 
@@ -28,7 +44,8 @@ struct BakeOptions {
 /// \param run filled with thread count and wall time by phase, where given.
 /// \pre the scene's albedos are limited (limit_albedo). When the monitor wants to stop, what is
 /// done so far is a valid solution. \throws InputError when the scene has no surface or no light;
-/// UsageError.
+/// UsageError, also where
+/// the tables would need more memory than is allowed.
 [[nodiscard]] Solution bake(const Scene& scene, const BakeOptions& options, const Workers& workers,
                             Monitor& monitor, RunRecord* run = nullptr);
 

@@ -39,6 +39,9 @@ struct Solution {
     Lighting lighting;  ///< what `direct` samples beside the surface, and the environment
     std::vector<Camera> cameras;
 
+    /// Means of textures, one a leaf; empty where no material in use has such a texture.
+    std::vector<Spectrum> leaf_diffuse, leaf_emission;
+
     // One a patch (PatchHierarchy: fronts, then backs). Sides that neither reflect nor emit hold
     // zeros.
     std::vector<Spectrum> direct_irradiance;    ///< by first shot [W m^-2]
@@ -72,11 +75,15 @@ struct Solution {
     }
     /// Emitted radiance [W sr^-1 m^-2].
     [[nodiscard]] Spectrum emission(std::uint32_t patch) const {
-        return emits(patch) ? material_of(patch).emission : Spectrum(0.0f);
+        if (!emits(patch)) return Spectrum(0.0f);
+        return leaf_emission.empty() ? material_of(patch).emission
+                                     : leaf_emission[patches.leaf_of_patch(patch)];
     }
     /// Albedo of the Lambert part [1]; 0 for a black back.
     [[nodiscard]] Spectrum diffuse(std::uint32_t patch) const {
-        return reflects(patch) ? material_of(patch).diffuse : Spectrum(0.0f);
+        if (!reflects(patch)) return Spectrum(0.0f);
+        return leaf_diffuse.empty() ? material_of(patch).diffuse
+                                    : leaf_diffuse[patches.leaf_of_patch(patch)];
     }
     /// Null for a patch without a lobe.
     [[nodiscard]] const GlossySide* glossy_side(std::uint32_t patch) const;

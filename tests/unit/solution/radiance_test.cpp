@@ -1,5 +1,7 @@
 #include "random_solution.h"
 
+#include "solution/incoming_light.h"
+
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -12,8 +14,11 @@ namespace {
 Solution one_triangle() {
     Solution solution = random_solution({.levels = {0}}, 1);
     Material& material = solution.surface.materials[0];
-    material.diffuse = Spectrum(0.5f, 0.25f, 0.0f);
-    material.specular = Spectrum(0.25f, 0.0f, 0.0f);
+    material.lobe = Lobe::none;
+    material.diffuse = Spectrum(0.75f, 0.25f, 0.0f);
+    solution.glossy = lay_out_glossy_sides(solution.surface, solution.patches,
+                                           choose_bin_levels(solution.surface, {}));
+    solution.glossy_elements.resize(solution.glossy.element_count);
     solution.direct_irradiance.assign(2, Spectrum(2.0f));
     solution.indirect_irradiance.assign(2, Spectrum(4.0f));
     return solution;
@@ -32,6 +37,35 @@ TEST(Radiance, IsAlbedoTimesIrradianceOverPi) {
     for (const std::uint32_t patch : {0u, 1u}) {
         expect_near(solution.direct_radiance(patch), Spectrum(1.5f, 0.5f, 0.0f) / pi);
         expect_near(solution.finite_element_radiance(patch), Spectrum(3.0f, 1.0f, 0.0f) / pi);
+    }
+}
+
+// Uniform light comes back by the directional albedo from each light, and by the mean one from all
+// around.
+TEST(Radiance, OfAGlossyPatchIsWhatItsAlbedosReflect) {
+    Solution solution = one_triangle();
+    Material& material = solution.surface.materials[0];
+    for (const Lobe lobe : {Lobe::max_phong, Lobe::ggx}) {
+        material.lobe = lobe;
+        material.specular = Spectrum(0.2f);
+        material.shininess = 10.0f;
+        material.roughness = 0.6f;
+        const Brdf brdf = brdf_of(material);
+        solution.glossy = lay_out_glossy_sides(solution.surface, solution.patches,
+                                               choose_bin_levels(solution.surface, {}));
+        solution.glossy_elements.assign(solution.glossy.element_count, Spectrum(3.0f));
+        const Spectrum fe = solution.finite_element_radiance(0);
+        for (int c = 0; c < channel_count; ++c)
+            EXPECT_NEAR(fe[c], 3.0f * mean_albedo(brdf)[c], 5e-3f);
+        std::vector<IncomingLight> incoming;
+        append_incoming_light(solution, 0, incoming);
+        ASSERT_FALSE(incoming.empty());
+        Spectrum direct(0.0f);
+        for (const IncomingLight& light : incoming)
+            direct += light.irradiance * directional_albedo(brdf, light.direction.z) /
+                      std::numbers::pi_v<float>;
+        for (int c = 0; c < channel_count; ++c)
+            EXPECT_NEAR(solution.direct_radiance(0)[c], direct[c], 1e-5f * direct[c]);
     }
 }
 

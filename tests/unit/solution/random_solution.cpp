@@ -1,7 +1,9 @@
 #include "random_solution.h"
 
-#include "support/random_hierarchy.h"
+#include "solution/leaf_colours.h"
+
 #include <transillum/scene/photometry.h>
+#include "support/random_hierarchy.h"
 
 #include <transillum/base/srgb.h>
 
@@ -342,6 +344,7 @@ Solution random_solution(const Shape& shape, unsigned seed) {
         light_patch(dice, shape, solution, patch);
     }
     add_glossy_elements(dice, solution);
+    average_textures(solution);
     for (int i = 0; i < shape.cameras; ++i) {
         solution.cameras.push_back(
             {dice.text(), dice.point(), dice.point(), dice.point(), 1.0 + 178.0 * dice.number()});
@@ -361,11 +364,13 @@ void expect_equal(const GlossySides& a, const GlossySides& b) {
 }
 
 void expect_equal(const Solution& a, const Solution& b) {
-    const auto& [surface, patches, direct, glossy, lighting, cameras, direct_irradiance,
-                 indirect_irradiance, standard_error, coverage, glossy_elements, iterations, seed,
-                 relative_error,
-                 interrupted, balance, decisions, settings, scene_hash] = a;
+    const auto& [surface, patches, direct, glossy, lighting, cameras, leaf_diffuse, leaf_emission,
+                 direct_irradiance, indirect_irradiance, standard_error, coverage, glossy_elements,
+                 iterations, seed, relative_error, interrupted, balance, decisions, settings,
+                 scene_hash] = a;
     expect_equal(surface, b.surface);
+    EXPECT_TRUE(leaf_diffuse == b.leaf_diffuse);
+    EXPECT_TRUE(leaf_emission == b.leaf_emission);
     EXPECT_TRUE(patches == b.patches);
     expect_equal(direct, b.direct);
     expect_equal(lighting, b.lighting);

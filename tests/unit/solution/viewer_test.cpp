@@ -96,7 +96,8 @@ TEST(Viewer, SeesTheArrays) {
     EXPECT_THAT(
         array_names(*blocks.pieces["surface"]->GetCellData()),
         testing::UnorderedElementsAre("Normals", "UVs", "Material", "SourceObject", "SourceFace",
-                                      "Level", "LeafCount", "Fans", "FirstShotFront", "FirstShotBack"));
+                                      "Level", "LeafCount", "Fans", "FirstShotFront",
+                                      "FirstShotBack", "BinLevelFront", "BinLevelBack"));
     EXPECT_THAT(array_names(*blocks.pieces["surface"]->GetFieldData()),
                 testing::IsSupersetOf({"FormatVersion", "ProgramVersion", "Units", "SceneHash",
                                        "Iterations", "Seed", "MaterialDiffuse", "CameraEye"}));
