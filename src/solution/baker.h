@@ -1,0 +1,29 @@
+/// From a surface and its patches to radiance: the first shot and the iteration.
+#pragma once
+
+#include "solution/stop_watch.h"
+
+#include <transillum/solution/bake.h>
+
+namespace transillum {
+
+class Baker {
+public:
+    /// Keeps references.
+    Baker(const BakeOptions& options, const Workers& workers, Monitor& monitor, StopWatch& watch)
+        : options_(options), workers_(workers), monitor_(monitor), watch_(watch) {}
+
+    /// Of a solution that has its surface, patches and lighting. Its decisions are begun anew.
+    void run(Solution& solution, std::uint64_t iterations) const;
+
+private:
+    void shoot(Solution& solution) const;
+    void iterate_on(Solution& solution, std::uint64_t iterations) const;
+
+    const BakeOptions& options_;
+    const Workers& workers_;
+    Monitor& monitor_;
+    StopWatch& watch_;
+};
+
+}  // namespace transillum
