@@ -53,7 +53,7 @@ SolutionShader::SolutionShader(const Solution& solution, const RenderOptions& op
     shown_lambert_ = LambertField(solution, grid, {stored_direct, c.finite_element}, workers);
     shown_ = {c.emission, c.direct, c.finite_element, monte_carlo, options.direct, &shown_lambert_};
     if (monte_carlo) whole_lambert_ = LambertField(solution, grid, {}, workers);
-    whole_ = {true, true, true, false, DirectShading::stored, &whole_lambert_};
+    whole_ = {true, true, true, true, DirectShading::stored, &whole_lambert_};
 }
 
 Sight SolutionShader::look(const Ray& ray, Wanted wanted, PixelSampler& random) const {
@@ -172,7 +172,11 @@ Spectrum SolutionShader::arriving(const Ray& ray, PixelSampler& random) const {
     const SurfacePoint p = point_at(hit, ray.direction);
     Spectrum sum = is_shot(hit) ? Spectrum(0.0f) : emission(hit);
     sum += shade(p, whole_);
-    if (p.is_sharp) sum += mirrored(p, whole_, random);
+    if (p.is_sharp) return sum + mirrored(p, whole_, random);
+    if (!p.side || !p.has_lobe()) return sum;
+    // The finite elements there are as wrong as here.
+    const float chance = std::min(max_channel(lobe_albedo(p.brdf, p.out.z)), highest_survival);
+    if (random.next() < chance) sum += difference(p, random) / chance;
     return sum;
 }
 

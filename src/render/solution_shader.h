@@ -3,7 +3,8 @@
 ///
 /// The Monte-Carlo component is estimated at glossy points: a direction of the lobe is followed to
 /// the next surface, and what comes from there, less what the finite elements hold for that
-/// direction, is added to what the lobe makes of them: they are the control variate.
+/// direction, is added to what the lobe makes of them: they are the control variate. What comes
+/// from there is corrected likewise, by Russian roulette.
 /// Lobes sharper than any direction bin are followed by rays instead (paper §7), through one such
 /// surface after the other.
 #pragma once
