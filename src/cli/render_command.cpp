@@ -27,11 +27,12 @@ struct RenderArguments {
 
 Components chosen(const std::vector<std::string>& words) {
     if (words.empty()) return {};
-    Components c{false, false, false};
+    Components c{false, false, false, false};
     for (const std::string& word : words) {
         if (word == "emission") c.emission = true;
         if (word == "direct") c.direct = true;
         if (word == "finite-element") c.finite_element = true;
+        if (word == "monte-carlo") c.monte_carlo = true;
     }
     return c;
 }
@@ -66,13 +67,21 @@ void add_render(CLI::App& program, const Common& common, int& exit_code) {
         ->group("Shading");
     command
         ->add_option("--components", a->components,
-                     "of: emission, direct, finite-element (default: all)")
+                     "of: emission, direct, finite-element, monte-carlo (default: all, the last "
+                     "where surfaces are glossy)")
         ->delimiter(',')
-        ->check(CLI::IsMember({"emission", "direct", "finite-element"}))
+        ->check(CLI::IsMember({"emission", "direct", "finite-element", "monte-carlo"}))
         ->group("Shading");
     command->add_flag("--flat", a->flat, "one radiance a patch instead of interpolation")
         ->group("Shading");
     command->add_option("--samples", a->render.samples, "most rays a pixel; flat pixels get fewer")
+        ->check(CLI::Range(1, 4096))
+        ->capture_default_str()
+        ->group("Shading");
+    command
+        ->add_option("--iterations", a->render.iterations,
+                     "most samples a pixel of the Monte-Carlo component and of what sharp lobes "
+                     "mirror; calm pixels get fewer")
         ->check(CLI::Range(1, 4096))
         ->capture_default_str()
         ->group("Shading");

@@ -35,13 +35,4 @@ struct Facet {
     return facets;
 }
 
-[[nodiscard]] inline Spectrum emission_of(const Material& m, bool back) {
-    return back && !m.back_emits ? Spectrum(0.0f) : m.emission;
-}
-
-/// Lambert albedo of a side; the back of a one-sided surface is black.
-[[nodiscard]] inline Spectrum albedo_of(const Material& m, bool back) {
-    return back && !m.back_reflects ? Spectrum(0.0f) : m.albedo();
-}
-
 }  // namespace transillum

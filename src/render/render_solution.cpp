@@ -5,7 +5,11 @@
 #include <transillum/base/error.h>
 #include <transillum/render/render_solution.h>
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <bit>
+#include <cmath>
 #include <limits>
 #include <string>
 
@@ -14,43 +18,64 @@ namespace transillum {
 namespace {
 
 constexpr int base_samples = 4;
+constexpr int base_iterations = 16;  ///< from which noise is estimated
 constexpr int most_samples = 4096;
-constexpr int rows_between_reports = 16;
+constexpr int rows_between_reports = 64;
 /// Pixels whose surroundings vary by more, relative to their brightest channel, are sampled
-/// further.
+/// further. What is left to chance has no say in that: noise is no edge.
 constexpr float contrast_threshold = 0.04f;
+/// Standard error of what is left to chance that is aimed at, relative to the surroundings.
+constexpr double noise_threshold = 0.02;
 
 struct PixelRecord {
-    SpectrumSum sum{0.0};
+    Spectrum steady{0.0f}, by_chance{0.0f};
+    float chance_squares = 0.0f;  ///< of its luminance
     Spectrum low{std::numeric_limits<float>::infinity()}, high{0.0f};
-    int samples = 0, on_emitter = 0;
+    int samples = 0, steady_samples = 0, iterations = 0, on_emitter = 0;
+    bool has_chance = false;
+
+    [[nodiscard]] SpectrumSum mean() const {
+        return SpectrumSum(steady) / double(std::max(steady_samples, 1)) +
+               SpectrumSum(by_chance) / double(std::max(iterations, 1));
+    }
+    /// Of one iteration.
+    [[nodiscard]] double variance() const {
+        if (iterations < 2) return 0.0;
+        const double n = iterations, sum = luminance(by_chance);
+        return std::max(0.0, (double{chance_squares} - sum * sum / n) / (n - 1.0));
+    }
 };
 
-class Renderer {
+/// Samples a pixel in all.
+struct Target {
+    int samples = 0, iterations = 0;
+};
+
+class Rendering {
 public:
-    Renderer(const Solution& solution, const Camera& camera, const RenderOptions& options,
-             const Workers& workers, Monitor& monitor)
+    Rendering(const SolutionShader& shader, const Camera& camera, const RenderOptions& options,
+              const Workers& workers, Monitor& monitor)
         : options_(options),
           workers_(workers),
           monitor_(monitor),
           view_(camera, options.width, options.height),
-          shader_(solution, options, workers),
+          shader_(shader),
           records_(static_cast<std::size_t>(options.width) * options.height) {}
 
     Image render() {
         const int base = std::min(base_samples, options_.samples);
-        for_rows([&](int y) {
-            for (int x = 0; x < options_.width; ++x) sample_pixel(x, y, base);
-        });
-        if (options_.samples > base) {
-            std::vector<char> rough(records_.size(), 0);
-            for (int y = 0; y < options_.height; ++y)
-                for (int x = 0; x < options_.width; ++x) rough[index(x, y)] = varies_around(x, y);
-            for_rows([&](int y) {
-                for (int x = 0; x < options_.width; ++x)
-                    if (rough[index(x, y)]) sample_pixel(x, y, options_.samples);
+        sample_all("render", [&](int, int) { return Target{base, base}; });
+        const bool has_chance = std::ranges::any_of(records_, &PixelRecord::has_chance);
+        if (options_.samples > base || (has_chance && options_.iterations > base))
+            sample_where_needed("render: edges", [&](int x, int y) {
+                return Target{
+                    options_.samples > base && varies_around(x, y) ? options_.samples : base,
+                    has_chance_around(x, y) ? base_iterations : 0};
             });
-        }
+        if (has_chance && options_.iterations > base_iterations)
+            sample_where_needed("render: noise", [&](int x, int y) {
+                return Target{0, iterations_for(x, y)};
+            });
         return mean_image();
     }
 
@@ -59,80 +84,180 @@ private:
         return static_cast<std::size_t>(y) * options_.width + x;
     }
 
-    template <class Row>
-    void for_rows(Row row) {
+    template <class Pixel>
+    void for_pixels(Pixel pixel, const char* phase = nullptr) {
         for (int first = 0; first < options_.height && !monitor_.stop_requested();
              first += rows_between_reports) {
             const int last = std::min(first + rows_between_reports, options_.height);
             workers_.for_ranges(static_cast<std::size_t>(last - first), 1,
                                 [&](std::size_t from, std::size_t to, int) {
                                     for (std::size_t y = from; y < to; ++y)
-                                        row(first + static_cast<int>(y));
+                                        for (int x = 0; x < options_.width; ++x)
+                                            pixel(x, first + static_cast<int>(y));
                                 });
-            rows_done_ += static_cast<std::uint64_t>(last - first);
-            monitor_.progress({"render", rows_done_, total_rows()});
+            if (phase)
+                monitor_.progress({phase, static_cast<std::uint64_t>(last),
+                                   static_cast<std::uint64_t>(options_.height)});
         }
     }
 
-    [[nodiscard]] std::uint64_t total_rows() const {
-        return static_cast<std::uint64_t>(options_.height) *
-               (options_.samples > base_samples ? 2 : 1);
+    template <class TargetOf>
+    void sample_all(const char* phase, TargetOf target_of) {
+        for_pixels([&](int x, int y) { sample_pixel(x, y, target_of(x, y)); }, phase);
+    }
+
+    /// The targets follow from the samples there are, those of neighbours among them.
+    template <class TargetOf>
+    void sample_where_needed(const char* phase, TargetOf target_of) {
+        targets_.assign(records_.size(), {});
+        for_pixels([&](int x, int y) { targets_[index(x, y)] = target_of(x, y); });
+        const bool needed = std::ranges::any_of(records_, [&](const PixelRecord& r) {
+            const Target& t = targets_[static_cast<std::size_t>(&r - records_.data())];
+            return std::max(t.samples, std::min(t.iterations, options_.iterations)) > r.samples;
+        });
+        if (needed) sample_all(phase, [&](int x, int y) { return targets_[index(x, y)]; });
     }
 
     /// Goes on until the pixel has so many samples; a power of two of them is stratified over its
     /// square.
-    void sample_pixel(int x, int y, int samples) {
+    void sample_pixel(int x, int y, Target target) {
         PixelRecord& record = records_[index(x, y)];
-        for (; record.samples < samples; ++record.samples) {
+        const int iterations = std::min(target.iterations, options_.iterations);
+        while (record.samples < std::max(target.samples, iterations)) {
+            const Wanted wanted{record.samples < target.samples, record.samples < iterations};
             PixelSampler random(options_.seed, index(x, y),
                                 static_cast<std::uint32_t>(record.samples));
             const glm::dvec2 u(random.next_pair());
-            const Sight sight = shader_.look({view_.eye(), view_.direction(x + u.x, y + u.y)});
-            record.sum += SpectrumSum(sight.radiance);
-            record.low = glm::min(record.low, sight.radiance);
-            record.high = glm::max(record.high, sight.radiance);
-            record.on_emitter += sight.emits;
+            const Ray ray{view_.eye(), view_.direction(x + u.x, y + u.y)};
+            add(record, shader_.look(ray, wanted, random), wanted);
+        }
+    }
+
+    static void add(PixelRecord& record, const Sight& sight, Wanted wanted) {
+        ++record.samples;
+        record.on_emitter += sight.emits;
+        record.has_chance = record.has_chance || sight.has_chance;
+        if (wanted.steady) {
+            ++record.steady_samples;
+            record.steady += sight.steady;
+            record.low = glm::min(record.low, sight.steady);
+            record.high = glm::max(record.high, sight.steady);
+        }
+        if (wanted.by_chance) {
+            ++record.iterations;
+            record.by_chance += sight.by_chance;
+            const float l = luminance(sight.by_chance);
+            record.chance_squares += l * l;
         }
     }
 
     /// Neighbours count too: an edge often passes between a pixel's own samples and its border.
+    template <class Body>
+    void for_neighbours(int x, int y, Body body) const {
+        for (int v = std::max(y - 1, 0); v <= std::min(y + 1, options_.height - 1); ++v)
+            for (int u = std::max(x - 1, 0); u <= std::min(x + 1, options_.width - 1); ++u)
+                body(records_[index(u, v)]);
+    }
+
     [[nodiscard]] bool varies_around(int x, int y) const {
         Spectrum low(std::numeric_limits<float>::infinity()), high(0.0f);
-        for (int v = std::max(y - 1, 0); v <= std::min(y + 1, options_.height - 1); ++v)
-            for (int u = std::max(x - 1, 0); u <= std::min(x + 1, options_.width - 1); ++u) {
-                low = glm::min(low, records_[index(u, v)].low);
-                high = glm::max(high, records_[index(u, v)].high);
-            }
+        for_neighbours(x, y, [&](const PixelRecord& r) {
+            low = glm::min(low, r.low);
+            high = glm::max(high, r.high);
+        });
         return max_channel(high - low) > contrast_threshold * max_channel(high);
+    }
+
+    [[nodiscard]] bool has_chance_around(int x, int y) const {
+        bool any = false;
+        for_neighbours(x, y, [&](const PixelRecord& r) { any = any || r.has_chance; });
+        return any;
+    }
+
+    /// From the variance of a neighbourhood: a pixel's own few iterations may have missed what
+    /// varies.
+    [[nodiscard]] int iterations_for(int x, int y) const {
+        double variance = 0.0, mean = 0.0, count = 0.0;
+        for_neighbours(x, y, [&](const PixelRecord& r) {
+            variance += r.variance();
+            mean += luminance(r.mean());
+            count += 1.0;
+        });
+        const double aimed_at = noise_threshold * mean / count;
+        if (!(variance > 0.0) || !(aimed_at > 0.0)) return 0;
+        const double needed = variance / count / (aimed_at * aimed_at);
+        if (needed >= options_.iterations) return options_.iterations;
+        return static_cast<int>(std::bit_ceil(static_cast<unsigned>(needed)));
     }
 
     [[nodiscard]] Image mean_image() const {
         Image image{options_.width, options_.height, {}, {}};
+        image.pixels.reserve(records_.size());
+        image.emitter_mask.reserve(records_.size());
         for (const PixelRecord& record : records_) {
-            const double n = std::max(record.samples, 1);
-            image.pixels.emplace_back(record.sum / n);
-            image.emitter_mask.push_back(static_cast<float>(record.on_emitter / n));
+            // The mean of what is left to chance may be below 0 where the rest is dark.
+            image.pixels.emplace_back(glm::max(record.mean(), SpectrumSum(0.0)));
+            image.emitter_mask.push_back(static_cast<float>(record.on_emitter) /
+                                         static_cast<float>(std::max(record.samples, 1)));
         }
         return image;
     }
 
-    RenderOptions options_;
+    const RenderOptions& options_;
     const Workers& workers_;
     Monitor& monitor_;
     CameraRays view_;
-    SolutionShader shader_;
+    const SolutionShader& shader_;
     std::vector<PixelRecord> records_;
-    std::uint64_t rows_done_ = 0;
+    std::vector<Target> targets_;
 };
+
+void check_count(const char* name, int count) {
+    if (count < 1 || count > most_samples)
+        throw UsageError(fmt::format("{}: {}; accepted: 1 to {}", name, count, most_samples));
+}
+
+bool has_sharp_lobes(const Solution& s) {
+    return std::ranges::any_of(s.glossy.sides, [&](const GlossySide& side) {
+        return is_sharper_than_bins(s.glossy.brdfs[side.brdf]);
+    });
+}
+
+RenderOptions decided(const Solution& s, RenderOptions options, Monitor& monitor) {
+    check_count("samples", options.samples);
+    check_count("iterations", options.iterations);
+    std::optional<bool>& monte_carlo = options.components.monte_carlo;
+    if (!monte_carlo) {
+        monte_carlo = !s.glossy.empty();
+        monitor.note(*monte_carlo ? fmt::format("Monte-Carlo component, up to {} rays a pixel: "
+                                                "{} sides have glossy lobes",
+                                                options.iterations, s.glossy.sides.size())
+                                  : "no Monte-Carlo component: no surface has a glossy lobe");
+    }
+    if (has_sharp_lobes(s))
+        monitor.note("rays follow reflections: some lobes are sharper than any direction bin");
+    return options;
+}
 
 }  // namespace
 
+SolutionRenderer::SolutionRenderer(const Solution& solution, const RenderOptions& options,
+                                   const Workers& workers, Monitor& monitor)
+    : options_(decided(solution, options, monitor)),
+      shader_(std::make_unique<SolutionShader>(solution, options_, workers)) {}
+
+SolutionRenderer::~SolutionRenderer() = default;
+SolutionRenderer::SolutionRenderer(SolutionRenderer&&) noexcept = default;
+SolutionRenderer& SolutionRenderer::operator=(SolutionRenderer&&) noexcept = default;
+
+Image SolutionRenderer::render(const Camera& camera, const Workers& workers,
+                               Monitor& monitor) const {
+    return Rendering(*shader_, camera, options_, workers, monitor).render();
+}
+
 Image render_solution(const Solution& solution, const Camera& camera, const RenderOptions& options,
                       const Workers& workers, Monitor& monitor) {
-    if (options.samples < 1 || options.samples > most_samples)
-        throw UsageError("samples: " + std::to_string(options.samples) + "; accepted: 1 to " +
-                         std::to_string(most_samples));
-    return Renderer(solution, camera, options, workers, monitor).render();
+    return SolutionRenderer(solution, options, workers, monitor).render(camera, workers, monitor);
 }
 
 }  // namespace transillum

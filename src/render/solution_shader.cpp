@@ -1,21 +1,15 @@
 #include "render/solution_shader.h"
 
-#include <numbers>
+#include "render/surface_at.h"
+
+#include <algorithm>
 
 namespace transillum {
 
 namespace {
 
-constexpr float inv_pi = std::numbers::inv_pi_v<float>;
-
-std::vector<float> patch_areas(const Solution& solution) {
-    std::vector<float> areas(solution.patches.patch_count());
-    for (std::uint32_t patch = 0; patch < areas.size(); ++patch) {
-        const std::uint32_t leaf = solution.patches.leaf_of_patch(patch);
-        areas[patch] = static_cast<float>(area_of_leaf(solution.surface, solution.patches, leaf));
-    }
-    return areas;
-}
+constexpr int most_mirrors = 16, last_sure_mirror = 4;
+constexpr float highest_survival = 0.95f;
 
 /// Barycentric coordinates within a leaf from those within its root.
 glm::vec3 within_leaf(const PatchHierarchy& patches, std::uint32_t leaf, const Hit& hit) {
@@ -28,81 +22,161 @@ glm::vec3 within_leaf(const PatchHierarchy& patches, std::uint32_t leaf, const H
     return {1.0f - b1 - b2, b1, b2};
 }
 
+bool survives(Spectrum& weight, int mirrors, PixelSampler& random) {
+    if (mirrors <= last_sure_mirror) return true;
+    const float chance = std::min(max_channel(weight), highest_survival);
+    if (random.next() >= chance) return false;
+    weight /= chance;
+    return true;
+}
+
 }  // namespace
 
 SolutionShader::SolutionShader(const Solution& solution, const RenderOptions& options,
                                const Workers& workers)
     : solution_(solution),
-      options_(options),
       facets_(facets_of(solution.surface)),
-      rays_(solution.surface) {
-    if (!options.interpolate) return;
-    grid_ = build_vertex_grid(solution.surface, solution.patches);
-    if (options.components.finite_element)
-        indirect_ = interpolated(solution.indirect_irradiance, solution.coverage, workers);
-    if (options.components.direct && options.direct == DirectShading::stored)
-        direct_ = interpolated(solution.direct_irradiance, patch_areas(solution), workers);
+      rays_(solution.surface),
+      direct_(solution, rays_) {
+    const Components& c = options.components;
+    const VertexGrid* const grid = options.interpolate ? &grid_ : nullptr;
+    if (grid) grid_ = build_vertex_grid(solution.surface, solution.patches);
+    const bool has_glossy = !solution.glossy.empty();
+    const bool monte_carlo = has_glossy && c.monte_carlo.value_or(false);
+    if (has_glossy) {
+        using enum GlossyField::Interpolation;
+        glossy_ = GlossyField(solution, grid, monte_carlo ? planar : smooth);
+    }
+    const bool stored_direct = c.direct && options.direct == DirectShading::stored;
+    if (has_glossy && (stored_direct || monte_carlo))
+        direct_.prepare_stored(grid, &glossy_.stencils(), workers);
+    shown_lambert_ = LambertField(solution, grid, {stored_direct, c.finite_element}, workers);
+    shown_ = {c.emission, c.direct, c.finite_element, monte_carlo, options.direct, &shown_lambert_};
+    if (monte_carlo) whole_lambert_ = LambertField(solution, grid, {}, workers);
+    whole_ = {true, true, true, true, DirectShading::stored, &whole_lambert_};
 }
 
-SolutionShader::VertexField SolutionShader::interpolated(const std::vector<Spectrum>& of_patches,
-                                                         const std::vector<float>& weights,
-                                                         const Workers& workers) const {
-    const std::size_t leaves = solution_.patches.leaf_count;
-    const std::span<const Spectrum> values(of_patches);
-    const std::span<const float> w(weights);
-    return {vertex_values(grid_, values.first(leaves), w.first(leaves), workers),
-            vertex_values(grid_, values.last(leaves), w.last(leaves), workers)};
-}
-
-Sight SolutionShader::look(const Ray& ray) const {
+Sight SolutionShader::look(const Ray& ray, Wanted wanted, PixelSampler& random) const {
+    Sight sight;
     const Hit hit = rays_.intersect(ray);
-    if (!hit) return {};
-    const SurfaceMesh& surface = solution_.surface;
-    const Material& material = surface.materials[surface.triangles[hit.root].material];
-    const Spectrum emission = emission_of(material, hit.back),
-                   albedo = albedo_of(material, hit.back);
-
-    Sight sight{Spectrum(0.0f), max_channel(emission) > 0.0f};
-    if (options_.components.emission) sight.radiance += emission;
-    if (!(max_channel(albedo) > 0.0f)) return sight;
-    Spectrum received(0.0f);
-    if (options_.components.direct)
-        received += options_.direct == DirectShading::traced
-                        ? traced_irradiance(hit)
-                        : irradiance(solution_.direct_irradiance, direct_, hit);
-    if (options_.components.finite_element)
-        received += irradiance(solution_.indirect_irradiance, indirect_, hit);
-    sight.radiance += albedo * inv_pi * received;
+    if (!hit) {
+        const Spectrum background = solution_.lighting.environment.radiance(ray.direction);
+        sight.emits = max_channel(background) > 0.0f;
+        if (shown_.emission) sight.steady = background;
+        return sight;
+    }
+    const Spectrum emitted = emission(hit);
+    sight.emits = max_channel(emitted) > 0.0f;
+    const SurfacePoint p = point_at(hit, ray.direction);
+    sight.has_chance = p.is_sharp || (shown_.monte_carlo && p.side && p.has_lobe());
+    if (wanted.steady) sight.steady = shade(p, shown_) + (shown_.emission ? emitted : Spectrum(0));
+    if (wanted.by_chance && sight.has_chance)
+        sight.by_chance = p.is_sharp ? mirrored(p, shown_, random) : difference(p, random);
     return sight;
 }
 
-Spectrum SolutionShader::irradiance(const std::vector<Spectrum>& of_patches,
-                                    const VertexField& of_vertices, const Hit& hit) const {
+SurfacePoint SolutionShader::point_at(const Hit& hit, const glm::dvec3& direction) const {
+    const SurfaceMesh& mesh = solution_.surface;
     const PatchHierarchy& patches = solution_.patches;
-    const std::uint32_t leaf = patches.leaf_at(hit.root, hit.b1, hit.b2);
-    if (!options_.interpolate) return of_patches[hit.back ? patches.leaf_count + leaf : leaf];
-    const std::vector<Spectrum>& values = of_vertices[hit.back ? 1 : 0];
-    const auto& vertices = grid_.leaf_vertices[leaf];
-    const glm::vec3 b = within_leaf(patches, leaf, hit);
-    const Spectrum mixed =
-        b.x * values[vertices[0]] + b.y * values[vertices[1]] + b.z * values[vertices[2]];
-    // A hit may lie a rounding error outside its leaf.
-    return glm::max(mixed, Spectrum(0.0f));
+    SurfacePoint p;
+    p.leaf = patches.leaf_at(hit.root, hit.b1, hit.b2);
+    p.patch = hit.back ? patches.leaf_count + p.leaf : p.leaf;
+    const Facet& facet = facets_[hit.root];
+    p.position = facet.point(hit.b1, hit.b2);
+    p.normal = facet.side_normal(hit.back);
+    const Material& material = mesh.materials[mesh.triangles[hit.root].material];
+    if (hit.back && !material.back_reflects) return p;
+    p.within = within_leaf(patches, p.leaf, hit);
+    p.brdf = brdf_at(mesh, hit.root, hit.b1, hit.b2);
+    if (!solution_.glossy.empty()) p.side = solution_.glossy.find(hit.root, hit.back);
+    if (!p.has_lobe()) return p;
+    p.is_sharp = is_sharper_than_bins(p.brdf);
+    p.world_from_local =
+        p.side ? glossy_.world_from_local(*p.side) : glm::mat3(bin_frame(p.normal));
+    p.out = p.local(-direction);
+    return p;
 }
 
-Spectrum SolutionShader::traced_irradiance(const Hit& hit) const {
-    const glm::dvec3 point = facets_[hit.root].point(hit.b1, hit.b2);
-    const glm::dvec3 normal = facets_[hit.root].side_normal(hit.back);
+Spectrum SolutionShader::emission(const Hit& hit) const {
+    const SurfaceMesh& mesh = solution_.surface;
+    const Material& m = mesh.materials[mesh.triangles[hit.root].material];
+    if (!m.emits() || (hit.back && !m.back_emits)) return Spectrum(0.0f);
+    return emission_at(mesh, hit.root, hit.b1, hit.b2);
+}
+
+bool SolutionShader::is_shot(const Hit& hit) const {
+    const std::vector<std::uint8_t>& shot = solution_.direct.shot_sides;
+    return !shot.empty() && shot[2 * hit.root + (hit.back ? 1 : 0)] != 0;
+}
+
+Spectrum SolutionShader::shade(const SurfacePoint& p, const Manner& manner) const {
     Spectrum sum(0.0f);
-    for (const LightSample& light : solution_.direct.samples) {
-        const glm::dvec3 way = light.position - point;
-        const double cos_here = glm::dot(normal, way), cos_there = -glm::dot(light.normal, way);
-        if (!(cos_here > 0.0 && cos_there > 0.0)) continue;
-        if (rays_.occluded(point, normal, light.position, light.normal)) continue;
-        const double distance2 = glm::dot(way, way);
-        sum += light.emitted *
-               static_cast<float>(light.area * cos_here * cos_there / (distance2 * distance2));
+    if (max_channel(p.brdf.diffuse) > 0.0f)
+        sum += p.brdf.diffuse * diffuse_coupling(p.brdf, p.out.z) * manner.lambert->at(p);
+    if (manner.direct) sum += direct(p, manner);
+    if (manner.finite_element && p.side && p.has_lobe() && !p.is_sharp) sum += glossy_.reflected(p);
+    return sum;
+}
+
+/// But for what the Lambert field holds of it.
+Spectrum SolutionShader::direct(const SurfacePoint& p, const Manner& manner) const {
+    if (manner.shading == DirectShading::stored) return p.side ? direct_.stored(p) : Spectrum(0.0f);
+    if (!p.has_lobe() && !(max_channel(p.brdf.diffuse) > 0.0f)) return Spectrum(0.0f);
+    return direct_.traced(p);
+}
+
+SolutionShader::Scattered SolutionShader::scatter(const SurfacePoint& p,
+                                                  PixelSampler& random) const {
+    const Brdf lobe = p.lobe();
+    const glm::vec3 in = sample_direction(lobe, p.out, 0.0f, random.next_pair());
+    const float density = direction_density(lobe, in, p.out);
+    if (!(density > 0.0f)) return {};
+    return {evaluate_lobe(lobe, in, p.out) * (in.z / density),
+            {p.position + rays_.clearance(p.position) * p.normal, p.world(in)}};
+}
+
+Spectrum SolutionShader::mirrored(SurfacePoint p, const Manner& manner,
+                                  PixelSampler& random) const {
+    Spectrum sum(0.0f), weight(1.0f);
+    for (int mirrors = 1; mirrors <= most_mirrors; ++mirrors) {
+        const Scattered on = scatter(p, random);
+        weight *= on.weight;
+        if (!(max_channel(weight) > 0.0f) || !survives(weight, mirrors, random)) break;
+        const Hit hit = rays_.intersect(on.ray);
+        if (!hit) {
+            if (manner.emission)
+                sum += weight * solution_.lighting.environment.radiance(on.ray.direction);
+            break;
+        }
+        if (manner.emission) sum += weight * emission(hit);
+        p = point_at(hit, on.ray.direction);
+        sum += weight * shade(p, manner);
+        if (!p.is_sharp) {
+            if (manner.monte_carlo && p.side && p.has_lobe()) sum += weight * difference(p, random);
+            break;
+        }
     }
+    return sum;
+}
+
+Spectrum SolutionShader::difference(const SurfacePoint& p, PixelSampler& random) const {
+    const Scattered on = scatter(p, random);
+    if (!(max_channel(on.weight) > 0.0f)) return Spectrum(0.0f);
+    return on.weight * (arriving(on.ray, random) - glossy_.incoming(p, on.ray.direction));
+}
+
+/// Light that the iteration would bring along a ray: the first shot brings the rest.
+Spectrum SolutionShader::arriving(const Ray& ray, PixelSampler& random) const {
+    const Hit hit = rays_.intersect(ray);
+    if (!hit) return solution_.lighting.environment.radiance(ray.direction);
+    const SurfacePoint p = point_at(hit, ray.direction);
+    Spectrum sum = is_shot(hit) ? Spectrum(0.0f) : emission(hit);
+    sum += shade(p, whole_);
+    if (p.is_sharp) return sum + mirrored(p, whole_, random);
+    if (!p.side || !p.has_lobe()) return sum;
+    // The finite elements there are as wrong as here.
+    const float chance = std::min(max_channel(lobe_albedo(p.brdf, p.out.z)), highest_survival);
+    if (random.next() < chance) sum += difference(p, random) / chance;
     return sum;
 }
 

@@ -1,5 +1,6 @@
 /// Measurement of a solution by a camera (paper §2.2, operator M): eye rays to the first surface,
-/// and there emission + direct + finite-element radiance.
+/// and there emission + direct + finite-element + Monte-Carlo radiance (paper §2.1, eq. 3). Rays
+/// that leave see the environment, those that meet sharp lobes what these mirror (paper §7).
 #pragma once
 
 #include <transillum/base/monitor.h>
@@ -7,27 +8,60 @@
 #include <transillum/render/image.h>
 #include <transillum/solution/solution.h>
 
+#include <memory>
+#include <optional>
+
 namespace transillum {
 
 enum class DirectShading {
-    stored,  ///< the patch's stored incoming radiance, interpolated like the finite elements
+    stored,  ///< the patches' stored incoming radiance, interpolated like the finite elements
     traced   ///< shadow rays to the light samples, at every point
 };
 
+/// What of the radiance is shown. Through mirrors these are the components of what is mirrored.
 struct Components {
     bool emission = true, direct = true, finite_element = true;
+    /// What the finite elements leave out of the reflection of glossy lobes: rays, and so noise.
+    /// Undecided: where the solution has glossy sides.
+    std::optional<bool> monte_carlo = std::nullopt;
 };
 
 struct RenderOptions {
     int width = 500, height = 500;
     int samples = 16;  ///< most rays a pixel [1, 4096]; flat pixels get fewer
+    /// Most samples a pixel of what is left to chance [1, 4096]: the Monte-Carlo component and what
+    /// sharp lobes show; calm pixels get fewer.
+    int iterations = 64;
     DirectShading direct = DirectShading::traced;
     bool interpolate = true;  ///< Gouraud within shading fans; else one radiance a patch
     Components components;
     std::uint64_t seed = 1;
 };
 
-/// Pixels are means over their squares. The image does not depend on the number of threads.
+class SolutionShader;
+
+/// A solution made ready to be looked at, for one camera after the other.
+class SolutionRenderer {
+public:
+    /// Keeps a reference to the solution. Notes what it decided. \throws UsageError for a count out
+    /// of range.
+    SolutionRenderer(const Solution& solution, const RenderOptions& options, const Workers& workers,
+                     Monitor& monitor);
+    ~SolutionRenderer();
+    SolutionRenderer(SolutionRenderer&&) noexcept;
+    SolutionRenderer& operator=(SolutionRenderer&&) noexcept;
+
+    /// Pixels are means over their squares. The image does not depend on the number of threads.
+    /// \throws UsageError for a size or a camera it cannot use.
+    [[nodiscard]] Image render(const Camera& camera, const Workers& workers,
+                               Monitor& monitor) const;
+
+private:
+    RenderOptions options_;
+    std::unique_ptr<SolutionShader> shader_;
+};
+
+/// One picture of a SolutionRenderer.
 [[nodiscard]] Image render_solution(const Solution& solution, const Camera& camera,
                                     const RenderOptions& options, const Workers& workers,
                                     Monitor& monitor);

@@ -1,0 +1,58 @@
+/// The finite elements of glossy sides as an eye sees them (paper §2.1).
+#pragma once
+
+#include "render/facets.h"
+#include "render/surface_point.h"
+#include "render/vertex_stencils.h"
+
+#include <transillum/base/parallel.h>
+#include <transillum/solution/solution.h>
+
+#include <glm/mat3x3.hpp>
+#include <glm/vec4.hpp>
+
+#include <vector>
+
+namespace transillum {
+
+class GlossyField {
+public:
+    enum class Interpolation {
+        none,    ///< the leaf's own elements
+        planar,  ///< between leaves of one plane: radiance is what one lobe makes of one field
+        smooth   ///< between all leaves that touch, each with its own frame
+    };
+
+    GlossyField() = default;
+    /// Keeps references. \param grid null: no interpolation; \pre there are glossy sides
+    GlossyField(const Solution& solution, const VertexGrid* grid, Interpolation interpolation);
+
+    [[nodiscard]] const VertexStencils& stencils() const { return stencils_; }
+    [[nodiscard]] const glm::mat3& world_from_local(const GlossySide& side) const {
+        return frames_[&side - solution_->glossy.sides.data()];
+    }
+    /// Radiance that the lobe reflects to the eye. \pre p has a side; the same below
+    [[nodiscard]] Spectrum reflected(const SurfacePoint& p) const;
+    /// Radiance that the elements hold for a world direction, which points away from the surface:
+    /// unless smooth, `reflected` is what the lobe makes of it.
+    [[nodiscard]] Spectrum incoming(const SurfacePoint& p, const glm::dvec3& from) const;
+
+private:
+    /// Calls body(entry) -> Spectrum for the patches a point's value is a mean of; their mean.
+    template <class Body>
+    [[nodiscard]] Spectrum mean(const SurfacePoint& p, Body body) const;
+    [[nodiscard]] const glm::vec4* bins_of(const VertexStencils::Entry& e) const {
+        const GlossySide& side = solution_->glossy.sides[e.side];
+        return bins_.data() + side.first_element +
+               std::uint64_t{e.patch - side.first_patch} * side.bins();
+    }
+
+    const Solution* solution_ = nullptr;
+    const VertexGrid* grid_ = nullptr;
+    Interpolation interpolation_ = Interpolation::none;
+    VertexStencils stencils_;
+    std::vector<glm::mat3> frames_;  ///< of the sides
+    std::vector<glm::vec4> bins_;    ///< as the solution's, but all bins of a patch in a row
+};
+
+}  // namespace transillum
