@@ -51,6 +51,7 @@ int parse_and_run(int argc, char** argv) {
     int exit_code = ExitCode::done;
     add_bake(program, common, exit_code);
     add_render(program, common, exit_code);
+    add_walk(program, common, exit_code);
     add_info(program, common, exit_code);
     add_compare(program, common, exit_code);
     add_reference(program, common, exit_code);

@@ -33,6 +33,10 @@ float exposure_factor(const Image& image, const ToneMapping& tone) {
     return median > 0.0f ? stops * middle_grey / median : stops;
 }
 
+double automatic_exposure(const Image& image) {
+    return std::log2(double{exposure_factor(image, {})});
+}
+
 Spectrum compress_highlights(const Spectrum& colour) {
     const Spectrum c = glm::max(colour, Spectrum(0.0f));
     const float peak = max_channel(c);

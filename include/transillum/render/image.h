@@ -34,6 +34,9 @@ struct ToneMapping {
         true;  ///< scale so that the median luminance of lit pixels shows as middle grey
 };
 
+/// The exposure [stops] that automatic exposure chooses for an image.
+[[nodiscard]] double automatic_exposure(const Image& image);
+
 /// Writes EXR (32-bit float, linear, no loss) or PNG (tone-mapped) by the extension; atomically.
 /// \throws UsageError for another extension, InputError where a pixel is not finite, IoError where
 /// it cannot write; nothing is left behind then.

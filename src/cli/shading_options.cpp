@@ -1,0 +1,60 @@
+#include "cli/shading_options.h"
+
+#include "cli/scene_options.h"
+
+namespace transillum::cli {
+
+namespace {
+
+Components chosen(const std::vector<std::string>& words) {
+    if (words.empty()) return {};
+    Components c{false, false, false, false};
+    for (const std::string& word : words) {
+        if (word == "emission") c.emission = true;
+        if (word == "direct") c.direct = true;
+        if (word == "finite-element") c.finite_element = true;
+        if (word == "monte-carlo") c.monte_carlo = true;
+    }
+    return c;
+}
+
+}  // namespace
+
+void add_shading_options(CLI::App& command, ShadingOptions& options) {
+    add_choice(command, "--direct", options.render.direct,
+               {{"stored", DirectShading::stored}, {"traced", DirectShading::traced}},
+               "direct light: as stored a patch, or by shadow rays to the light samples")
+        ->group("Shading");
+    command
+        .add_option("--components", options.components,
+                    "of: emission, direct, finite-element, monte-carlo (default: all, the last "
+                    "where surfaces are glossy)")
+        ->delimiter(',')
+        ->check(CLI::IsMember({"emission", "direct", "finite-element", "monte-carlo"}))
+        ->group("Shading");
+    command.add_flag("--flat", options.flat, "one radiance a patch instead of interpolation")
+        ->group("Shading");
+    command
+        .add_option("--iterations", options.render.iterations,
+                    "most samples a pixel of the Monte-Carlo component and of what sharp lobes "
+                    "mirror; calm pixels get fewer")
+        ->check(CLI::Range(1, 4096))
+        ->capture_default_str()
+        ->group("Shading");
+    add_sampling_options(
+        command,
+        {options.render.samples, 4096, "most rays a pixel; flat pixels get fewer",
+         options.render.seed, "of the positions in a pixel, and of chance", options.threads,
+         "Shading"});
+}
+
+RenderOptions make_render_options(const ShadingOptions& options, Size size) {
+    RenderOptions render = options.render;
+    render.width = size.width;
+    render.height = size.height;
+    render.components = chosen(options.components);
+    render.interpolate = !options.flat;
+    return render;
+}
+
+}  // namespace transillum::cli

@@ -1,0 +1,24 @@
+/// Options of subcommands that show a solution.
+#pragma once
+
+#include "cli/camera_options.h"
+
+#include <transillum/render/render_solution.h>
+
+#include <string>
+#include <vector>
+
+namespace transillum::cli {
+
+struct ShadingOptions {
+    RenderOptions render;
+    std::vector<std::string> components;  ///< none: all
+    bool flat = false;
+    int threads = 0;
+};
+
+void add_shading_options(CLI::App& command, ShadingOptions& options);
+
+[[nodiscard]] RenderOptions make_render_options(const ShadingOptions& options, Size size);
+
+}  // namespace transillum::cli
