@@ -49,7 +49,7 @@ int run(RenderArguments& a, const Common& common) {
     const Camera camera = make_camera(a.camera, solution.cameras, solution.surface);
     const Image image = render_solution(solution, camera, a.render, Workers(a.threads), console);
     if (console.stop_requested()) return ExitCode::interrupted;
-    for (const std::string& path : a.image.paths) write_image(image, path, a.image.tone);
+    write_images(image, a.image);
     return ExitCode::done;
 }
 
@@ -74,10 +74,6 @@ void add_render(CLI::App& program, const Common& common, int& exit_code) {
         ->group("Shading");
     command->add_flag("--flat", a->flat, "one radiance a patch instead of interpolation")
         ->group("Shading");
-    command->add_option("--samples", a->render.samples, "most rays a pixel; flat pixels get fewer")
-        ->check(CLI::Range(1, 4096))
-        ->capture_default_str()
-        ->group("Shading");
     command
         ->add_option("--iterations", a->render.iterations,
                      "most samples a pixel of the Monte-Carlo component and of what sharp lobes "
@@ -85,12 +81,10 @@ void add_render(CLI::App& program, const Common& common, int& exit_code) {
         ->check(CLI::Range(1, 4096))
         ->capture_default_str()
         ->group("Shading");
-    command->add_option("--seed", a->render.seed, "of the positions in a pixel")
-        ->capture_default_str()
-        ->group("Shading");
-    command->add_option("--threads", a->threads, "0: as many as the machine has")
-        ->capture_default_str()
-        ->group("Shading");
+    add_sampling_options(
+        *command,
+        {a->render.samples, 4096, "most rays a pixel; flat pixels get fewer", a->render.seed,
+         "of the positions in a pixel, and of chance", a->threads, "Shading"});
     command->callback([a, &common, &exit_code] { exit_code = run(*a, common); });
 }
 
