@@ -66,6 +66,23 @@ void add_image_options(CLI::App& command, ImageOptions& options) {
         ->group("Output");
 }
 
+void add_sampling_options(CLI::App& command, const SamplingOptions& options) {
+    command.add_option("--samples", options.samples, options.samples_help)
+        ->check(CLI::Range(1, options.most_samples))
+        ->capture_default_str()
+        ->group(options.group);
+    command.add_option("--seed", options.seed, options.seed_help)
+        ->capture_default_str()
+        ->group(options.group);
+    command.add_option("--threads", options.threads, "0: as many as the machine has")
+        ->capture_default_str()
+        ->group(options.group);
+}
+
+void write_images(const Image& image, const ImageOptions& options) {
+    for (const std::string& path : options.paths) write_image(image, path, options.tone);
+}
+
 void require_writable(const ImageOptions& options) {
     for (const std::string& path : options.paths) {
         if (!path.ends_with(".exr") && !path.ends_with(".png"))

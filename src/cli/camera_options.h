@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -23,8 +24,21 @@ struct ImageOptions {
     ToneMapping tone;
 };
 
+/// Of samples: options of the library, and how they are spoken of.
+struct SamplingOptions {
+    int& samples;
+    int most_samples;
+    const char* samples_help;
+    std::uint64_t& seed;
+    const char* seed_help;
+    int& threads;
+    const char* group;
+};
+
 void add_camera_options(CLI::App& command, CameraOptions& options);
 void add_image_options(CLI::App& command, ImageOptions& options);
+/// --samples, --seed, --threads.
+void add_sampling_options(CLI::App& command, const SamplingOptions& options);
 
 /// \throws UsageError for an unknown name, an impossible view, or a name beside a free view.
 [[nodiscard]] Camera make_camera(const CameraOptions& options, const std::vector<Camera>& cameras,
@@ -32,6 +46,8 @@ void add_image_options(CLI::App& command, ImageOptions& options);
 
 /// \throws UsageError for another extension than .exr and .png, IoError as require_writable.
 void require_writable(const ImageOptions& options);
+/// Into every file asked for.
+void write_images(const Image& image, const ImageOptions& options);
 
 /// "640x480". \throws UsageError unless both are in [1, 16384].
 struct Size {

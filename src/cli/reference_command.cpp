@@ -32,7 +32,7 @@ int run(ReferenceArguments& a, const Common& common) {
     const Camera camera = make_camera(a.camera, scene.cameras, surface);
     const Image image =
         path_trace(surface, scene.lighting, camera, a.path_trace, Workers(a.threads), console);
-    for (const std::string& path : a.image.paths) write_image(image, path, a.image.tone);
+    write_images(image, a.image);
     return console.stop_requested() ? ExitCode::interrupted : ExitCode::done;
 }
 
@@ -45,22 +45,14 @@ void add_reference(CLI::App& program, const Common& common, int& exit_code) {
     add_scene_options(*command, a->scene);
     add_camera_options(*command, a->camera);
     add_image_options(*command, a->image);
-    command->add_option("--samples", a->path_trace.samples, "paths a pixel")
-        ->check(CLI::Range(1, 1 << 24))
-        ->capture_default_str()
-        ->group("Paths");
     command
         ->add_option("--max-bounces", a->path_trace.max_bounces,
                      "0: no limit, roulette alone ends paths")
         ->check(CLI::NonNegativeNumber)
         ->capture_default_str()
         ->group("Paths");
-    command->add_option("--seed", a->path_trace.seed, "of the paths")
-        ->capture_default_str()
-        ->group("Paths");
-    command->add_option("--threads", a->threads, "0: as many as the machine has")
-        ->capture_default_str()
-        ->group("Paths");
+    add_sampling_options(*command, {a->path_trace.samples, 1 << 24, "paths a pixel",
+                                    a->path_trace.seed, "of the paths", a->threads, "Paths"});
     command->callback([a, &common, &exit_code] { exit_code = run(*a, common); });
 }
 

@@ -31,7 +31,7 @@ int run(const RenderArguments& a, const Common& common) {
     const Image image =
         render_solution(solution, camera, render, Workers(a.shading.threads), console);
     if (console.stop_requested()) return ExitCode::interrupted;
-    for (const std::string& path : a.image.paths) write_image(image, path, a.image.tone);
+    write_images(image, a.image);
     return ExitCode::done;
 }
 

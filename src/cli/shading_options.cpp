@@ -41,11 +41,10 @@ void add_shading_options(CLI::App& command, ShadingOptions& options) {
         ->check(CLI::Range(1, 4096))
         ->capture_default_str()
         ->group("Shading");
-    add_sampling_options(
-        command,
-        {options.render.samples, 4096, "most rays a pixel; flat pixels get fewer",
-         options.render.seed, "of the positions in a pixel, and of chance", options.threads,
-         "Shading"});
+    add_sampling_options(command,
+                         {options.render.samples, 4096, "most rays a pixel; flat pixels get fewer",
+                          options.render.seed, "of the positions in a pixel, and of chance",
+                          options.threads, "Shading"});
 }
 
 RenderOptions make_render_options(const ShadingOptions& options, Size size) {

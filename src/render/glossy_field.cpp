@@ -11,6 +11,7 @@ namespace {
 
 /// Normals that lie no further apart have frames, and so bins, that are alike.
 constexpr float least_cosine = 1.0f - 1e-6f;
+constexpr std::uint64_t no_row = ~std::uint64_t{0};
 
 /// From behind the horizon of a neighbour it is seen as from the horizon.
 glm::vec3 above_horizon(glm::vec3 d) {
@@ -62,7 +63,6 @@ GlossyField::GlossyField(const Solution& solution, const VertexGrid* grid,
       grid_(grid),
       interpolation_(grid ? interpolation : Interpolation::none),
       bins_(solution.glossy_elements.size()) {
-    if (grid) stencils_ = VertexStencils(solution, *grid);
     const std::vector<Facet> facets = facets_of(solution.surface);
     for (const GlossySide& side : solution.glossy.sides) {
         frames_.emplace_back(bin_frame(facets[side.root].side_normal(side.back)));
@@ -72,39 +72,73 @@ GlossyField::GlossyField(const Solution& solution, const VertexGrid* grid,
                 bins_[side.first_element + i * n + k] = glm::vec4(
                     solution.glossy_elements[side.first_element + k * side.leaf_count + i], 0.0f);
     }
+    if (!grid) return;
+    stencils_ = VertexStencils(solution, *grid);
+    combine_at_vertices();
+}
+
+bool GlossyField::is_plane(std::span<const VertexStencils::Entry> entries) const {
+    return std::ranges::all_of(entries, [&](const VertexStencils::Entry& e) {
+        const std::uint32_t first = entries.front().side;
+        return solution_->glossy.sides[e.side].projection ==
+                   solution_->glossy.sides[first].projection &&
+               glm::dot(frames_[e.side][2], frames_[first][2]) > least_cosine;
+    });
+}
+
+void GlossyField::combine_at_vertices() {
+    vertex_row_.assign(2 * grid_->vertex_count(), no_row);
+    for (std::uint32_t i = 0; i < vertex_row_.size(); ++i) {
+        const auto entries = stencils_.at(i / 2, i % 2 != 0);
+        if (entries.empty() || !is_plane(entries)) continue;
+        vertex_row_[i] = vertex_bins_.size();
+        const int n = solution_->glossy.sides[entries.front().side].bins();
+        vertex_bins_.resize(vertex_bins_.size() + n, glm::vec4(0.0f));
+        glm::vec4* const row = vertex_bins_.data() + vertex_row_[i];
+        for (const VertexStencils::Entry& e : entries) {
+            const glm::vec4* const x = elements_of(e.patch, e.side).bins;
+            for (int k = 0; k < n; ++k) row[k] += e.weight * x[k];
+        }
+    }
 }
 
 template <class Body>
 Spectrum GlossyField::mean(const SurfacePoint& p, Body body) const {
     const auto own_side = static_cast<std::uint32_t>(p.side - solution_->glossy.sides.data());
-    const VertexStencils::Entry own{p.patch, own_side, 1.0f};
-    if (interpolation_ == Interpolation::none) return body(own);
+    if (interpolation_ == Interpolation::none) return body(elements_of(p.patch, own_side));
     const bool back = p.patch != p.leaf;
-    const glm::vec3 normal = frames_[own_side][2];
+    const auto fits = [&](std::uint32_t side) {
+        return interpolation_ != Interpolation::planar || side == own_side ||
+               glm::dot(frames_[side][2], frames_[own_side][2]) > least_cosine;
+    };
     Spectrum sum(0.0f);
     for (int c = 0; c < 3; ++c) {
+        const std::uint32_t vertex = grid_->leaf_vertices[p.leaf][c];
+        const auto entries = stencils_.at(vertex, back);
+        const std::uint64_t row = vertex_row_[2 * std::size_t{vertex} + (back ? 1 : 0)];
+        if (row != no_row && fits(entries.front().side)) {
+            sum += p.within[c] * body(Elements{entries.front().side, vertex_bins_.data() + row});
+            continue;
+        }
         Spectrum here(0.0f);
         float weight = 0.0f;
-        for (const VertexStencils::Entry& e : stencils_.at(grid_->leaf_vertices[p.leaf][c], back)) {
-            if (interpolation_ == Interpolation::planar && e.side != own_side &&
-                !(glm::dot(frames_[e.side][2], normal) > least_cosine))
-                continue;
-            here += e.weight * body(e);
+        for (const VertexStencils::Entry& e : entries) {
+            if (!fits(e.side)) continue;
+            here += e.weight * body(elements_of(e.patch, e.side));
             weight += e.weight;
         }
-        sum += p.within[c] * (weight > 0.0f ? here / weight : body(own));
+        sum += p.within[c] * (weight > 0.0f ? here / weight : body(elements_of(p.patch, own_side)));
     }
     return glm::max(sum, Spectrum(0.0f));
 }
 
 Spectrum GlossyField::reflected(const SurfacePoint& p) const {
     SeenSides sides(*solution_, frames_, p);
-    return mean(p, [&](const VertexStencils::Entry& e) {
-        const SeenSides::Seen& seen = sides.at(e.side);
-        const glm::vec4* const x = bins_of(e);
-        const int n = solution_->glossy.sides[e.side].bins();
+    return mean(p, [&](const Elements& elements) {
+        const SeenSides::Seen& seen = sides.at(elements.side);
+        const int n = solution_->glossy.sides[elements.side].bins();
         glm::vec4 sum(0.0f);
-        for (int k = 0; k < n; ++k) sum += seen.shares[k] * x[k];
+        for (int k = 0; k < n; ++k) sum += seen.shares[k] * elements.bins[k];
         return seen.albedo * Spectrum(sum);
     });
 }
@@ -112,13 +146,13 @@ Spectrum GlossyField::reflected(const SurfacePoint& p) const {
 Spectrum GlossyField::incoming(const SurfacePoint& p, const glm::dvec3& from) const {
     std::uint32_t known = GlossySides::none;
     int bin = 0;
-    return mean(p, [&](const VertexStencils::Entry& e) {
-        if (e.side != known) {
-            known = e.side;
-            const glm::vec3 in = above_horizon(glm::vec3(from) * frames_[e.side]);
-            bin = bin_at(square_of_direction(in), solution_->glossy.sides[e.side].bin_level);
+    return mean(p, [&](const Elements& elements) {
+        if (elements.side != known) {
+            known = elements.side;
+            const glm::vec3 in = above_horizon(glm::vec3(from) * frames_[known]);
+            bin = bin_at(square_of_direction(in), solution_->glossy.sides[known].bin_level);
         }
-        return Spectrum(bins_of(e)[bin]);
+        return Spectrum(elements.bins[bin]);
     });
 }
 

@@ -11,6 +11,8 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec4.hpp>
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
 namespace transillum {
@@ -38,14 +40,21 @@ public:
     [[nodiscard]] Spectrum incoming(const SurfacePoint& p, const glm::dvec3& from) const;
 
 private:
-    /// Calls body(entry) -> Spectrum for the patches a point's value is a mean of; their mean.
+    /// The elements of a patch, or their mean at a vertex about which all is plane.
+    struct Elements {
+        std::uint32_t side;
+        const glm::vec4* bins;
+    };
+    void combine_at_vertices();
+    [[nodiscard]] bool is_plane(std::span<const VertexStencils::Entry> entries) const;
+    [[nodiscard]] Elements elements_of(std::uint32_t patch, std::uint32_t side) const {
+        const GlossySide& s = solution_->glossy.sides[side];
+        return {side,
+                bins_.data() + s.first_element + std::uint64_t{patch - s.first_patch} * s.bins()};
+    }
+    /// Calls body(elements) -> Spectrum for what a point's value is a mean of; their mean.
     template <class Body>
     [[nodiscard]] Spectrum mean(const SurfacePoint& p, Body body) const;
-    [[nodiscard]] const glm::vec4* bins_of(const VertexStencils::Entry& e) const {
-        const GlossySide& side = solution_->glossy.sides[e.side];
-        return bins_.data() + side.first_element +
-               std::uint64_t{e.patch - side.first_patch} * side.bins();
-    }
 
     const Solution* solution_ = nullptr;
     const VertexGrid* grid_ = nullptr;
@@ -53,6 +62,8 @@ private:
     VertexStencils stencils_;
     std::vector<glm::mat3> frames_;  ///< of the sides
     std::vector<glm::vec4> bins_;    ///< as the solution's, but all bins of a patch in a row
+    std::vector<glm::vec4> vertex_bins_;
+    std::vector<std::uint64_t> vertex_row_;  ///< 2 * vertex + back -> its first bin there, or none
 };
 
 }  // namespace transillum

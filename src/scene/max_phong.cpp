@@ -21,12 +21,25 @@ glm::vec3 mirrored(const glm::vec3& out) {
     return {-out.x, -out.y, out.z};
 }
 
+/// Rounding grows with n, so larger exponents are better taken by logarithms.
+constexpr float largest_whole_power = 64.0f;
+
+float whole_power(float x, int n) {
+    float power = 1.0f;
+    for (; n > 0; n >>= 1, x *= x)
+        if (n & 1) power *= x;
+    return power;
+}
+
 /// cos^n between unit vectors, 0 beyond a right angle. The cosine's distance from 1 is taken from
 /// the vectors' difference: n times the rounding of a dot product would show in sharp lobes.
 float cosine_power(float n, const glm::vec3& a, const glm::vec3& b) {
     const glm::vec3 difference = a - b;
     const float below_one = 0.5f * glm::dot(difference, difference);
-    return below_one < 1.0f ? std::exp(n * std::log1p(-below_one)) : 0.0f;
+    if (!(below_one < 1.0f)) return 0.0f;
+    if (n <= largest_whole_power && n == std::floor(n))
+        return whole_power(1.0f - below_one, static_cast<int>(n));
+    return std::exp(n * std::log1p(-below_one));
 }
 
 /// Mean over the azimuth phi of max(0, min(1, (a + b cos phi) / m)), b >= 0, m > 0.
