@@ -136,6 +136,28 @@ TEST_F(Results, RenderWithoutTheScene) {
 }
 
 /// In another second and with other threads: neither the time nor their number may enter the files.
+TEST_F(Results, WalkAlongAPath) {
+    bake_cornell("box.vtm");
+    write("in.path",
+          "0 278 273 -800  278 273 0  0 1 0  40\n"
+          "1 278 273 -600  278 273 0  0 1 0  40\n");
+    const std::string options = " --path in.path --fps 2 --size 32x32 --samples 4 ";
+    ASSERT_EQ(run("-q walk box.vtm -o frames" + options).exit_code, 0);
+    EXPECT_EQ(listing("frames"),
+              (std::set<std::string>{"frame-00000.png", "frame-00001.png", "frame-00002.png"}));
+    EXPECT_FALSE(read("frames/frame-00000.png") == read("frames/frame-00002.png"));
+    // A frame is the picture from there.
+    ASSERT_EQ(run("-q walk box.vtm -o linear --format exr" + options).exit_code, 0);
+    ASSERT_EQ(run("-q render box.vtm -o last.exr --eye 278,273,-600 --look-at 278,273,0 --fov 40 "
+                  "--size 32x32 --samples 4 --direct stored")
+                  .exit_code,
+              0);
+    EXPECT_EQ(run("compare linear/frame-00002.exr last.exr --fail-above 0").exit_code, 0);
+    const Outcome o = run("walk box.vtm -o frames --path missing.path");
+    EXPECT_EQ(o.exit_code, 4);
+    EXPECT_NE(o.err.find("missing.path"), std::string::npos) << o.err;
+}
+
 TEST_F(Results, RenderAlikeTwice) {
     bake_cornell("c.vtm");
     for (const char* camera : {"front", "corner"}) {
