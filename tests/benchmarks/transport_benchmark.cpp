@@ -35,9 +35,10 @@ void whole_iteration(benchmark::State& state) {
         std::vector<int>(mesh.triangles.size(), static_cast<int>(state.range(1))),
         static_cast<int>(state.range(2)), 1);
     const std::uint32_t n = patches.patch_count();
-    const PatchSources sources{std::vector<Spectrum>(n, Spectrum(1.0f)),
-                               std::vector<Spectrum>(n, Spectrum(0.0f)),
-                               std::vector<Spectrum>(n, Spectrum(0.5f))};
+    PatchSources sources;
+    sources.emission.assign(n, Spectrum(1.0f));
+    sources.direct.assign(n, Spectrum(0.0f));
+    sources.albedo.assign(n, Spectrum(0.5f));
     const Workers workers(threads);
     Monitor silent;
     IterationOptions options;
