@@ -89,8 +89,7 @@ PatchHierarchy subdivide_to_levels(const std::vector<int>& levels) {
     return builder.take();
 }
 
-glm::dvec3 leaf_centre(const SurfaceMesh& mesh, const PatchHierarchy& patches,
-                       std::uint32_t leaf) {
+glm::dvec3 leaf_centre(const SurfaceMesh& mesh, const PatchHierarchy& patches, std::uint32_t leaf) {
     const auto [a, b, c] = points_of_leaf(mesh, patches, leaf);
     return (a + b + c) / 3.0;
 }

@@ -269,11 +269,10 @@ double Hemicube::front_share(std::uint32_t leaf) const {
 /// others beside it to make up for its errors.
 PatchView Hemicube::view_of(const PatchSums& sums, std::uint32_t patch) const {
     const std::uint32_t leaf = patches_.leaf_of_patch(patch);
-    const double kernel =
-        distribution_ ? sums.covered / sums.area
-        : sums.pixels >= enough_pixels
-            ? sums.covered / area_of_leaf(mesh_, patches_, leaf)
-            : sums.covered / sums.area * front_share(leaf);
+    const double kernel = distribution_ ? sums.covered / sums.area
+                          : sums.pixels >= enough_pixels
+                              ? sums.covered / area_of_leaf(mesh_, patches_, leaf)
+                              : sums.covered / sums.area * front_share(leaf);
     if (!(sums.covered > 0.0)) return {};
     return {static_cast<float>(kernel),
             static_cast<float>(std::min(1.0, sums.seen / sums.covered))};

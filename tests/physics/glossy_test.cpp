@@ -69,7 +69,8 @@ TEST(GlossyBox, KeepsEnergy) {
         for (const GlossySide& s : run.sources.glossy.sides) {
             if (s.back) continue;
             for (std::uint32_t p = s.first_patch; p < s.first_patch + s.leaf_count; ++p) {
-                const double area = area_of_leaf(run.surface, run.patches, run.patches.leaf_of_patch(p));
+                const double area =
+                    area_of_leaf(run.surface, run.patches, run.patches.leaf_of_patch(p));
                 const double incoming = run.result.irradiance[p].x / std::numbers::pi;
                 double lobe = 0.0;
                 for (int k = 0; k < s.bins(); ++k)

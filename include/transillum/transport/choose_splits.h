@@ -18,7 +18,7 @@
 namespace transillum {
 
 struct SplitOptions {
-    double tolerance = 0.1;  ///< between children that meet, over the mean of the scene
+    double tolerance = 0.1;        ///< between children that meet, over the mean of the scene
     std::uint32_t max_leaves = 0;  ///< of the result; 0: no limit. The widest spreads go first
     int max_level = 8;             ///< of the result, below max_subdivision_level
 };

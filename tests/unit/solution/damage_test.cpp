@@ -66,8 +66,8 @@ protected:
     }
     void replace(const std::string& piece, const std::string& forged) const {
         std::vector<std::pair<std::string, std::string>> pieces;
-        for (const char* name :
-             {"radiance", "incoming", "lights", "environment", "surface", "texture-0", "texture-1", "texture-2"})
+        for (const char* name : {"radiance", "incoming", "lights", "environment", "surface",
+                                 "texture-0", "texture-1", "texture-2"})
             pieces.emplace_back(name,
                                 name == piece ? forged : files_.at("room/" + file_of_piece(name)));
         write(folder_ / "room" / file_of_piece(piece), forged);
