@@ -78,6 +78,20 @@ TEST_F(Results, AreRefusedWhereTheyWouldTakeTooMuchMemory) {
     EXPECT_NE(o.err.find("accepted: 0.00 in all"), std::string::npos) << o.err;
 }
 
+// Mirrors cast light that direction bins can't hold; glossy walls don't.
+TEST_F(Results, SayHowMuchLightMeetsSharpLobes) {
+    for (const bool sharp : {false, true}) {
+        write_room("0.3", "1",
+                   std::string("Ks 0.5 0.5 0.5\nillum 2\nNs ") + (sharp ? "1000\n" : "10\n"));
+        const Outcome o = run("bake room.obj -o room.vtm --leaves 100 --iterations 64");
+        ASSERT_EQ(o.exit_code, 0) << o.err;
+        EXPECT_EQ(o.err.find("lobes sharper than direction bins can hold") != std::string::npos,
+                  sharp)
+            << o.err;
+        EXPECT_NE(o.err.find("direction bins on"), std::string::npos) << o.err;
+    }
+}
+
 // A red floor under a uniform sky sends back its share of it.
 TEST_F(Results, OfAnOpenSceneSeeTheEnvironment) {
     write("floor.obj",
