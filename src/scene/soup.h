@@ -44,8 +44,4 @@ inline std::string shown(double value) {
     return text;
 }
 
-inline bool is_share(double value) {
-    return value >= 0.0 && value <= 1.0;
-}
-
 }  // namespace transillum

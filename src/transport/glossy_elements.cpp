@@ -102,10 +102,9 @@ float GlossyElements::direct_peak(const GlossySide& side, std::uint32_t patch) c
 }
 
 Spectrum GlossyElements::direct_towards(const GlossySide& side, std::uint32_t patch,
-                                        const glm::vec3& out) const {
+                                        const glm::vec3& out, float coupling) const {
     const Brdf& f = brdf(side);
-    const Spectrum lambert = sources_.albedo[patch] * diffuse_coupling(f, out.z) /
-                             (std::numbers::pi_v<float> * mean_diffuse_coupling(f));
+    const Spectrum lambert = sources_.albedo[patch] * coupling;
     Spectrum sum(0.0f);
     for (std::uint32_t i = sources_.first_incoming[patch]; i < sources_.first_incoming[patch + 1];
          ++i) {
@@ -153,6 +152,8 @@ void GlossyElements::send(Exchange& exchange, const Bundle& bundle) const {
         const Spectrum emission =
             sources_.directional_emission ? sources_.directional_emission(s, d) : Spectrum(0.0f);
         const bool has_direct = !sources_.first_incoming.empty();
+        const float coupling = diffuse_coupling(brdf(s), d.z) /
+                               (std::numbers::pi_v<float> * mean_diffuse_coupling(brdf(s)));
 
         std::array<Sum, strip> by_lobe, by_lambert;
         for (std::uint32_t begin = c.begin; begin < c.end; begin += strip) {
@@ -172,7 +173,7 @@ void GlossyElements::send(Exchange& exchange, const Bundle& bundle) const {
                 Spectrum sent = sources_.emission[p] + emission +
                                 lobe * Spectrum(g[0], g[1], g[2]) +
                                 sources_.albedo[p] * Spectrum(l[0], l[1], l[2]);
-                if (has_direct) sent += direct_towards(s, p, d);
+                if (has_direct) sent += direct_towards(s, p, d, coupling);
                 exchange.set_radiance(p, sent);
             }
         }

@@ -74,8 +74,9 @@ private:
     }
     [[nodiscard]] glm::vec3 direction_above(std::uint32_t side, const Bundle& bundle) const;
     [[nodiscard]] Spectrum ratio(std::uint64_t element, const Spectrum& fallback) const;
+    /// \param coupling of the Lambert part towards `out`, over pi and its mean
     [[nodiscard]] Spectrum direct_towards(const GlossySide& side, std::uint32_t patch,
-                                          const glm::vec3& out) const;
+                                          const glm::vec3& out, float coupling) const;
     void sample_emission();
     /// Bound of what a patch reflects of the first shot.
     [[nodiscard]] float direct_peak(const GlossySide& side, std::uint32_t patch) const;
