@@ -149,6 +149,10 @@ void read_bin_levels(const ArrayReader& reader, const Path& file, Solution& solu
                 levels[2 * i + back] = static_cast<std::int8_t>(of_roots[i]);
             }
         }
+    // A material that is not there is found and named when all is checked.
+    for (std::size_t i = 0; i < roots; ++i)
+        if (solution.surface.triangles[i].material >= solution.surface.materials.size())
+            levels[2 * i] = levels[2 * i + 1] = -1;
     solution.glossy = lay_out_glossy_sides(solution.surface, solution.patches, levels);
 }
 
