@@ -149,10 +149,12 @@ void read_bin_levels(const ArrayReader& reader, const Path& file, Solution& solu
                 levels[2 * i + back] = static_cast<std::int8_t>(of_roots[i]);
             }
         }
-    // A material that is not there is found and named when all is checked.
+    const SurfaceMesh& mesh = solution.surface;
     for (std::size_t i = 0; i < roots; ++i)
-        if (solution.surface.triangles[i].material >= solution.surface.materials.size())
-            levels[2 * i] = levels[2 * i + 1] = -1;
+        if (mesh.triangles[i].material >= mesh.materials.size())
+            throw InputError(file.string(), "root " + std::to_string(i) + " material: index " +
+                                                std::to_string(mesh.triangles[i].material) +
+                                                " of " + std::to_string(mesh.materials.size()));
     solution.glossy = lay_out_glossy_sides(solution.surface, solution.patches, levels);
 }
 

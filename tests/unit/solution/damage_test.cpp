@@ -211,7 +211,7 @@ TEST_F(Damage, ValuesOutOfRange) {
     expect_refused("surface.vtp", "subdivision level 12; accepted: 0 to 11");
     restore();
     forge_cell("surface", "Material", 9);
-    expect_refused("room.vtm", "root 1 material: index 9 of 3");
+    expect_refused("surface.vtp", "root 1 material: index 9 of 3");
 }
 
 TEST_F(Damage, TreesThatAreNone) {
