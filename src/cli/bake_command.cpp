@@ -141,6 +141,14 @@ void add_options(CLI::App& command, BakeArguments& a) {
         ->check(not_negative())
         ->capture_default_str()
         ->group(method);
+    add_choice(command, "--monte-carlo", iteration.monte_carlo,
+               {{"auto", MonteCarlo::automatic},
+                {"off", MonteCarlo::off},
+                {"subpatch", MonteCarlo::subpatch},
+                {"wavefront", MonteCarlo::wavefront}},
+               "what patches can't hold is carried from bundle to bundle on their quarters, or in "
+               "the whole buffer; auto: where it changes more than the error to be expected")
+        ->group(method);
     add_choice(command, "--averaging", iteration.averaging,
                {{"balanced", Averaging::balanced}, {"paper", Averaging::paper}},
                "how iterations are averaged; paper: 1/m, for comparison")

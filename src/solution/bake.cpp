@@ -29,6 +29,7 @@ void note_decisions(const Solution& s, Monitor& monitor) {
 
 void record_settings(const BakeOptions& o, Solution& s) {
     const char* const shots[] = {"auto", "off", "hemicube"};
+    const char* const residuals[] = {"auto", "off", "subpatch", "wavefront"};
     s.settings = {
         {"patch-size", fmt::format("{}", o.subdivision.patch_size)},
         {"leaves", fmt::format("{}", o.subdivision.leaf_target)},
@@ -41,6 +42,7 @@ void record_settings(const BakeOptions& o, Solution& s) {
         {"iterations", fmt::format("{}", o.iteration.iterations)},
         {"target-error", fmt::format("{}", o.iteration.target_error)},
         {"time", fmt::format("{}", o.iteration.seconds)},
+        {"monte-carlo", residuals[static_cast<int>(o.iteration.monte_carlo)]},
         {"averaging", o.iteration.averaging == Averaging::paper ? "paper" : "balanced"},
         {"brdf-bins", o.bins.level < 0 ? "auto" : fmt::format("{}", bin_count(o.bins.level))},
         {"seed", fmt::format("{}", o.seed)}};

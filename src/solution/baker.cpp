@@ -67,6 +67,30 @@ void decide_bins(const Solution& s, const BinOptions& options, std::vector<Decis
          options.level < 0 ? "by the width and weight of their lobes" : "asked for"});
 }
 
+void decide_monte_carlo(const TransportResult& t, MonteCarlo choice,
+                        std::vector<Decision>& decisions) {
+    if (t.carried == 0) {
+        decisions.push_back({"no Monte-Carlo component in the transport",
+                             choice == MonteCarlo::off ? "asked for" : "too few directions"});
+        return;
+    }
+    const char* const how = t.monte_carlo == MonteCarlo::subpatch
+                                ? "on the quarters of patches"
+                                : "in the transillumination buffer";
+    const std::string what = fmt::format("Monte-Carlo component carried {} for {} of {} directions",
+                                         how, t.carried, t.iterations);
+    if (choice != MonteCarlo::automatic)
+        decisions.push_back({what, "asked for"});
+    else if (std::isnan(t.residual_effect))
+        decisions.push_back({what, "too few directions to tell what it is worth"});
+    else
+        decisions.push_back(
+            {what, fmt::format("it changes {:.2g} % of what patches receive, {}",
+                               100.0 * t.residual_effect,
+                               t.carried_to_the_end ? "above the error to be expected"
+                                                    : "below the error to be expected")});
+}
+
 }  // namespace
 
 void Baker::run(Solution& s, std::uint64_t iterations) const {
@@ -109,7 +133,10 @@ void Baker::iterate_on(Solution& s, std::uint64_t iterations) const {
         s.decisions.push_back({"no environment", "the scene has none"});
     TransportResult transport =
         iterate(s.surface, s.patches, sources, iteration, workers_, monitor_);
+    decide_monte_carlo(transport, iteration.monte_carlo, s.decisions);
     s.indirect_irradiance = std::move(transport.irradiance);
+    s.spatial_error = std::move(transport.spatial_error);
+    s.directional_error = std::move(transport.directional_error);
     s.coverage = std::move(transport.coverage);
     s.standard_error = std::move(transport.standard_error);
     s.glossy_elements = std::move(transport.glossy_elements);

@@ -309,6 +309,10 @@ std::string find_defect(const Solution& solution) try {
     check_spectra(solution.indirect_irradiance, patches, "indirect irradiance of patch");
     check_spectra(solution.standard_error, patches, "standard error of patch");
     check_table(solution.coverage, patches, infinity, "coverage of patch");
+    if (!solution.spatial_error.empty() || !solution.directional_error.empty()) {
+        check_table(solution.spatial_error, patches, infinity, "spatial error of patch");
+        check_table(solution.directional_error, patches, infinity, "directional error of patch");
+    }
     for (const GlossySide& side : solution.glossy.sides)
         if (solution.glossy.brdfs[side.brdf].lobe == Lobe::none)
             throw Defect("triangle " + std::to_string(side.root) +

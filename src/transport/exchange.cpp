@@ -1,5 +1,8 @@
 #include "transport/exchange.h"
 
+#include "transport/exchange_lists.h"
+#include "transport/monte_carlo_component.h"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -9,33 +12,9 @@ namespace transillum {
 
 namespace {
 
-/// Every fourth row of pixels, from a random one, suffices for the few numbers that clusters
-/// exchange.
-constexpr int cluster_row_stride = 4;
 /// Fragments between a fetch and its use: long enough for main memory, short enough to stay in the
 /// cache.
 constexpr std::ptrdiff_t fetch_distance = 24;
-/// Cluster sums collect far more fragments than a patch does: they drop this many low bits.
-constexpr int cluster_shift = 8;
-
-FixedRadiance shifted(const FixedRadiance& r) {
-    using Unsigned = std::uint64_t __attribute__((vector_size(32)));
-    // Radiance is not negative, and the count is one.
-    const Unsigned bits =
-        (reinterpret_cast<const Unsigned&>(r.lane) >> cluster_shift) | Unsigned{0, 0, 0, 1};
-    return {reinterpret_cast<const FixedRadiance::Lanes&>(bits)};
-}
-
-/// Both sides of a leaf share a cache line: the front at odd numbers, the back at even ones.
-std::uint32_t upper_slot(Fragment f) {
-    return std::rotl(static_cast<std::uint32_t>(f),
-                     1);  // leaf * 2 + whether the front faces forwards
-}
-
-std::uint32_t lower_slot(Fragment f) {
-    return upper_slot(f) ^ 1u;
-}
-
 }  // namespace
 
 Exchange::Exchange(std::uint32_t leaf_count, const Clusters& clusters, const Workers& workers)
@@ -43,13 +22,13 @@ Exchange::Exchange(std::uint32_t leaf_count, const Clusters& clusters, const Wor
       cluster_count_(clusters.count),
       workers_(workers),
       radiance_(2 * std::size_t{leaf_count}),
-      partials_(workers.count()) {
+      tallies_(workers.count()) {
     if (cluster_count_ > 0) {
         cluster_.resize(radiance_.size() + 1);
         for (std::uint32_t p = 0; p < clusters.of_patch.size(); ++p)
             cluster_[slot_of(p)] = clusters.of_patch[p];
     }
-    for (Partial& p : partials_) {
+    for (ExchangeTally& p : tallies_) {
         p.received.resize(radiance_.size() + 1);
         p.transfer.resize(std::size_t{cluster_count_ + 1} * (cluster_count_ + 1));
     }
@@ -71,6 +50,7 @@ void Exchange::set_radiance(const std::vector<Spectrum>& radiance, float largest
     const int bits = std::min(40, 62 - static_cast<int>(std::ceil(std::log2(most_fragments))));
     unit_ = largest > 0.0f ? std::ldexp(1.0, exponent - bits) : 1.0;
     most_steps_ = std::ldexp(1.0, bits);
+    bits_ = bits;
     workers_.for_ranges(radiance.size(), 16384, [&](std::size_t begin, std::size_t end, int) {
         for (std::size_t i = begin; i < end; ++i)
             set_radiance(static_cast<std::uint32_t>(i), radiance[i]);
@@ -88,7 +68,7 @@ void Exchange::set_environment(const Spectrum& along, const Spectrum& against) {
 
 Received Exchange::take_entered() {
     FixedRadiance sum;
-    for (Partial& p : partials_) {
+    for (ExchangeTally& p : tallies_) {
         sum += p.entered;
         p.entered = {};
     }
@@ -99,12 +79,12 @@ Received Exchange::take_entered() {
 #if defined(__x86_64__) && defined(__GNUC__)
 __attribute__((target_clones("avx2", "default")))
 #endif
-void Exchange::exchange_tile(const TileLists& tile, int cluster_row, Partial& partial) const {
+void Exchange::exchange_tile(const TileLists& tile, int cluster_row, ExchangeTally& tally) const {
     const std::uint32_t outside = 2 * leaf_count_;
-    FixedRadiance* const received = partial.received.data();
+    FixedRadiance* const received = tally.received.data();
     const FixedRadiance* const radiance = radiance_.data();
     const std::uint8_t* const cluster = cluster_.data();
-    FixedRadiance* const transfer = partial.transfer.data();
+    FixedRadiance* const transfer = tally.transfer.data();
     const std::uint32_t n = cluster_count_ + 1;
     FixedRadiance escaped, entered;
     const FixedRadiance along = along_, against = against_;
@@ -150,20 +130,30 @@ void Exchange::exchange_tile(const TileLists& tile, int cluster_row, Partial& pa
         }
     }
     received[outside] += escaped;
-    partial.entered += entered;
-    partial.fragments += tile.fragments.size();
+    tally.entered += entered;
+    tally.fragments += tile.fragments.size();
 }
 
 void Exchange::transfer(TransilluminationBuffer& buffer, const Bundle& bundle) {
     const int cluster_row = cluster_count_ > 0 ? bundle.random_row % cluster_row_stride : -1;
     buffer.trace(bundle, workers_, [&](const TileLists& tile, int worker) {
-        exchange_tile(tile, cluster_row, partials_[worker]);
+        exchange_tile(tile, cluster_row, tallies_[worker]);
     });
+}
+
+void Exchange::transfer(TransilluminationBuffer& buffer, const Bundle& bundle,
+                        MonteCarloComponent& residual) {
+    const int cluster_row = cluster_count_ > 0 ? bundle.random_row % cluster_row_stride : -1;
+    residual.begin(bundle);
+    buffer.trace(bundle, workers_, [&](const TileLists& tile, int worker) {
+        residual.exchange_tile(tile, buffer, tables(), cluster_row, tallies_[worker], worker);
+    });
+    residual.end(buffer, tables());
 }
 
 std::uint64_t Exchange::fragments() const {
     std::uint64_t sum = 0;
-    for (const Partial& p : partials_) sum += p.fragments;
+    for (const ExchangeTally& p : tallies_) sum += p.fragments;
     return sum;
 }
 
@@ -172,7 +162,7 @@ void Exchange::collect(ClusterTransfer& sum) {
     for (std::uint32_t receiver = 0; receiver < n; ++receiver)
         for (std::uint32_t sender = 0; sender < n; ++sender) {
             FixedRadiance total;
-            for (Partial& p : partials_) {
+            for (ExchangeTally& p : tallies_) {
                 FixedRadiance& entry = p.transfer[receiver * n + sender];
                 total += entry;
                 entry = {};

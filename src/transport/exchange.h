@@ -55,6 +55,34 @@ struct ClusterTransfer {
     }
 };
 
+/// Both sides of a leaf share a cache line: the front at odd numbers, the back at even ones.
+[[nodiscard]] inline std::uint32_t slot_of_patch(std::uint32_t patch, std::uint32_t leaf_count) {
+    return patch < leaf_count ? 2 * patch + 1 : 2 * (patch - leaf_count);
+}
+
+/// What all patches send along a bundle, by slot.
+struct ExchangeTables {
+    std::uint32_t leaf_count = 0, cluster_count = 0;
+    const FixedRadiance* radiance = nullptr;
+    const std::uint8_t* cluster = nullptr;  ///< one a slot, then what is outside
+    FixedRadiance along, against;           ///< of the environment
+    double unit = 1.0;                      ///< radiance of one fixed-point step
+
+    [[nodiscard]] Spectrum in_units(const FixedRadiance& r) const {
+        return Spectrum(SpectrumSum(r.lane[0], r.lane[1], r.lane[2]) * unit);
+    }
+};
+
+/// What one worker has seen arrive.
+struct ExchangeTally {
+    std::vector<FixedRadiance> received;  ///< one a slot, then what is outside
+    std::vector<FixedRadiance> transfer;  ///< between clusters, receiver by receiver
+    FixedRadiance entered;
+    std::uint64_t fragments = 0;
+};
+
+class MonteCarloComponent;
+
 class Exchange {
 public:
     Exchange(std::uint32_t leaf_count, const Clusters& clusters, const Workers& workers);
@@ -70,13 +98,16 @@ public:
 
     /// Transfers the radiance of all patches along one bundle, both ways.
     void transfer(TransilluminationBuffer& buffer, const Bundle& bundle);
+    /// The same with the Monte-Carlo component beside it. \pre the buffer is made of its cells
+    void transfer(TransilluminationBuffer& buffer, const Bundle& bundle,
+                  MonteCarloComponent& residual);
 
     /// Takes out what arrived at a patch since it was last taken; patch 2 * leaf_count is
     /// everything outside. Different patches may be taken at once.
     [[nodiscard]] Received take(std::uint32_t patch) {
         const std::uint32_t slot = slot_of(patch);
         FixedRadiance sum;
-        for (Partial& p : partials_) {
+        for (ExchangeTally& p : tallies_) {
             sum += p.received[slot];
             p.received[slot] = {};
         }
@@ -90,34 +121,35 @@ public:
     /// Exchanged so far.
     [[nodiscard]] std::uint64_t fragments() const;
 
-private:
-    struct Partial {
-        std::vector<FixedRadiance> received;
-        std::vector<FixedRadiance> transfer;
-        FixedRadiance entered;
-        std::uint64_t fragments = 0;
-    };
-    void exchange_tile(const TileLists& tile, int cluster_row, Partial& partial) const;
-
-    [[nodiscard]] std::uint32_t slot_of(std::uint32_t patch) const {
-        if (patch == 2 * leaf_count_) return patch;
-        return patch < leaf_count_ ? 2 * patch + 1 : 2 * (patch - leaf_count_);
+    /// In steps, cut off where `largest` would be exceeded.
+    [[nodiscard]] FixedRadiance fixed(const Spectrum& radiance) const;
+    /// The largest radiance is below 2^bits steps.
+    [[nodiscard]] int bits() const { return bits_; }
+    [[nodiscard]] ExchangeTables tables() const {
+        return {leaf_count_, cluster_count_, radiance_.data(), cluster_.data(), along_,
+                against_,    unit_};
     }
+
+private:
+    [[nodiscard]] std::uint32_t slot_of(std::uint32_t patch) const {
+        return patch == 2 * leaf_count_ ? patch : slot_of_patch(patch, leaf_count_);
+    }
+    void exchange_tile(const TileLists& tile, int cluster_row, ExchangeTally& tally) const;
+
     static Received in_units(const FixedRadiance& sum, double unit) {
         return {SpectrumSum(sum.lane[0], sum.lane[1], sum.lane[2]) * unit,
                 static_cast<double>(sum.lane[3])};
     }
 
-    [[nodiscard]] FixedRadiance fixed(const Spectrum& radiance) const;
-
     std::uint32_t leaf_count_, cluster_count_;
     const Workers& workers_;
     double unit_ = 1.0;  ///< radiance of one fixed-point step
     double most_steps_ = 0.0;
+    int bits_ = 0;                         ///< of them
     std::vector<FixedRadiance> radiance_;  ///< one a slot
     FixedRadiance along_, against_;        ///< of the environment
     std::vector<std::uint8_t> cluster_;    ///< one a slot, then what is outside
-    std::vector<Partial> partials_;        ///< one a worker
+    std::vector<ExchangeTally> tallies_;   ///< one a worker
 };
 
 }  // namespace transillum

@@ -1,5 +1,7 @@
 #include "transport/finite_elements.h"
 
+#include <glm/geometric.hpp>
+
 #include <cmath>
 #include <limits>
 
@@ -29,20 +31,24 @@ void add(PatchSums& s, const Received& block, double weight) {
 FiniteElementComponent::FiniteElementComponent(const SurfaceMesh& mesh,
                                                const PatchHierarchy& patches,
                                                const PatchSources& sources, const Workers& workers)
-    : sources_(sources),
+    : mesh_(mesh),
+      patches_(patches),
+      sources_(sources),
       workers_(workers),
       glossy_(mesh, patches, sources, workers),
       sums_(sources.albedo.size()),
       ratio_(sources.albedo.size()),
       radiance_(sources.albedo.size()) {}
 
-void FiniteElementComponent::average_in(Exchange& exchange, std::uint64_t directions,
-                                        double weight) {
+void FiniteElementComponent::average_in(Exchange& exchange, std::uint64_t directions, double weight,
+                                        ResidualEffect* effect) {
     workers_.for_ranges(sums_.size(), grain, [&](std::size_t begin, std::size_t end, int) {
         for (std::size_t i = begin; i < end; ++i) {
             const auto patch = static_cast<std::uint32_t>(i);
-            add(sums_[i], glossy_.side_of(patch) ? glossy_.take(patch) : exchange.take(patch),
-                weight);
+            const Received block =
+                glossy_.side_of(patch) ? glossy_.take(patch) : exchange.take(patch);
+            add(sums_[i], block, weight);
+            if (effect) effect->take(patch, block);
         }
     });
     escaped_ += weight * exchange.take(patch_count()).radiance;
@@ -95,7 +101,9 @@ SpectrumSum FiniteElementComponent::incoming(std::uint32_t patch) const {
 
 SpectrumSum FiniteElementComponent::ratio(std::uint32_t patch) const {
     const PatchSums& s = sums_[patch];
-    return s.coverage > 0.0 ? s.received / s.coverage : SpectrumSum(0.0);
+    // Residuals that were carried may be negative, and where there is hardly any light, their sum.
+    return s.coverage > 0.0 ? glm::max(s.received / s.coverage, SpectrumSum(0.0))
+                            : SpectrumSum(0.0);
 }
 
 void FiniteElementComponent::scale_incoming(std::uint32_t patch, const SpectrumSum& factor) {
@@ -146,7 +154,7 @@ std::vector<Spectrum> FiniteElementComponent::glossy_values() {
 }
 
 void FiniteElementComponent::send(Exchange& exchange, float brightest_environment,
-                                  double most_fragments) {
+                                  double most_fragments, float headroom) {
     workers_.for_ranges(sums_.size(), grain, [&](std::size_t begin, std::size_t end, int) {
         for (std::size_t i = begin; i < end; ++i) {
             const SpectrumSum in = ratio(static_cast<std::uint32_t>(i));
@@ -158,11 +166,33 @@ void FiniteElementComponent::send(Exchange& exchange, float brightest_environmen
     float largest = brightest_environment;
     for (const Spectrum& r : radiance_) largest = std::max(largest, max_channel(r));
     if (!glossy_.empty()) largest = std::max(largest, glossy_.update_incoming(ratio_));
-    exchange.set_radiance(radiance_, largest, most_fragments);
+    exchange.set_radiance(radiance_, headroom * largest, most_fragments);
 }
 
 void FiniteElementComponent::send_along(Exchange& exchange, const Bundle& bundle) const {
     glossy_.send(exchange, bundle);
+}
+
+void FiniteElementComponent::reflect_residual(const Bundle& last, const Bundle& next,
+                                              const MonteCarloComponent& residual,
+                                              std::span<BundleReflection> reflections) const {
+    constexpr std::size_t roots_at_once = 256;
+    const std::size_t roots = patches_.roots.size();
+    workers_.for_ranges(roots, roots_at_once, [&](std::size_t begin, std::size_t end, int) {
+        for (auto root = static_cast<std::uint32_t>(begin); root < end; ++root) {
+            const auto twice_cosine =
+                static_cast<float>(2.0 * std::abs(glm::dot(normal_of(mesh_, root), last.frame[2])));
+            const std::uint32_t first = patches_.roots[root].first_leaf;
+            for (std::uint32_t leaf = first; leaf < first + patches_.leaves_of(root); ++leaf)
+                for (const std::uint32_t patch : {leaf, leaf + patches_.leaf_count}) {
+                    const std::uint32_t slot = slot_of_patch(patch, patches_.leaf_count);
+                    const Spectrum gain = twice_cosine * sources_.albedo[patch];
+                    reflections[slot] = {lanes_of(gain),
+                                         lanes_of(gain * residual.arrived(slot).radiance)};
+                }
+        }
+    });
+    glossy_.reflect_residual(last, next, residual, reflections);
 }
 
 void FiniteElementComponent::receive_along(Exchange& exchange, const Bundle& bundle,

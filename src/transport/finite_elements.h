@@ -7,10 +7,13 @@
 
 #include "transport/exchange.h"
 #include "transport/glossy_elements.h"
+#include "transport/monte_carlo_component.h"
+#include "transport/residual_effect.h"
 
 #include <transillum/transport/iterate.h>
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace transillum {
@@ -36,14 +39,27 @@ public:
 
     /// Refreshes what is sent: emission, first reflection, and what the elements reflect.
     /// \param brightest_environment bound of its radiance
-    void send(Exchange& exchange, float brightest_environment, double most_fragments);
+    /// \param headroom bound of what a point sends over what any patch does
+    void send(Exchange& exchange, float brightest_environment, double most_fragments,
+              float headroom = 1.0f);
     /// The part of it that differs from bundle to bundle.
     void send_along(Exchange& exchange, const Bundle& bundle) const;
     /// Takes what arrives at sides whose BRDF weighs bundles unlike. \param weight of the direction
     void receive_along(Exchange& exchange, const Bundle& bundle, double weight);
 
+    /// How patches reflect what arrived along one bundle towards the next, beside the elements.
+    /// \param reflections one a slot of the exchange
+    void reflect_residual(const Bundle& last, const Bundle& next,
+                          const MonteCarloComponent& residual,
+                          std::span<BundleReflection> reflections) const;
+
+    /// Bound of a residual over what arrives.
+    [[nodiscard]] float largest_gain() const { return 2.0f + glossy_.largest_gain(); }
+
     /// Takes a block of directions. \param weight of each of its directions in the average.
-    void average_in(Exchange& exchange, std::uint64_t directions, double weight);
+    /// \param effect told what every patch received, where given
+    void average_in(Exchange& exchange, std::uint64_t directions, double weight,
+                    ResidualEffect* effect = nullptr);
     /// Sets what was summed aside, keeping the estimate as the start of a new average, with next to
     /// no weight.
     void restart();
@@ -88,6 +104,8 @@ public:
 private:
     [[nodiscard]] SpectrumSum ratio(std::uint32_t patch) const;
 
+    const SurfaceMesh& mesh_;
+    const PatchHierarchy& patches_;
     const PatchSources& sources_;
     const Workers& workers_;
     GlossyElements glossy_;

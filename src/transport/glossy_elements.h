@@ -7,11 +7,13 @@
 #pragma once
 
 #include "transport/exchange.h"
+#include "transport/monte_carlo_component.h"
 
 #include <transillum/transport/iterate.h>
 #include <transillum/transport/projected_brdf.h>
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace transillum {
@@ -35,6 +37,13 @@ public:
     void receive(Exchange& exchange, const Bundle& bundle, double weight);
     /// What a patch has received since this was last called.
     [[nodiscard]] Received take(std::uint32_t patch);
+
+    /// FiniteElementComponent's, of glossy sides.
+    void reflect_residual(const Bundle& last, const Bundle& next,
+                          const MonteCarloComponent& residual,
+                          std::span<BundleReflection> reflections) const;
+    /// Bound of a residual over what arrives.
+    [[nodiscard]] float largest_gain() const;
 
     /// Means over directions, weighted with the cosine: of the incoming radiance, and of what is
     /// reflected of it. The second is at most the first times the albedo.

@@ -1,23 +1,28 @@
-// The loop of paper §2.2 for the finite-element component:
+// The loop of paper §2.2:
 //
-//   L^r   = T*_fr (L^e + L~(m-1))          transfer, along one bundle and both ways
-//   L~'(m) = projection of L^r             Exchange, per patch
-//   L~(m)  = average of the projections    FiniteElementComponent::average_in
+//   L^r    = T*_fr (L^e + L~(m-1) + dL(m-1))  transfer, along one bundle and both ways
+//   L~'(m) = projection of L^r                Exchange, per patch
+//   dL(m)  = L^r - L~'(m)                     MonteCarloComponent, where it is carried
+//   L~(m)  = average of the projections       FiniteElementComponent::average_in
 //
 // L~ is refreshed after blocks of directions, and balanced at powers of two (design 4.4).
 #include <transillum/base/error.h>
 #include <transillum/transport/iterate.h>
 
+#include "transport/bundle_transfer.h"
 #include "transport/clusters.h"
 #include "transport/energy_balance.h"
 #include "transport/exchange.h"
 #include "transport/finite_elements.h"
+#include "transport/relative_error.h"
+#include "transport/residual_effect.h"
 
 #include <bit>
 #include <chrono>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -30,6 +35,12 @@ constexpr std::uint64_t first_balance = 8;
 constexpr std::uint64_t last_restart = 64;
 /// Longer blocks would leave the fixed-point sums too few bits.
 constexpr std::uint64_t longest_block = 1024;
+
+/// The Monte-Carlo component is carried from here on: earlier, elements are mostly noise. Where
+/// that is automatic, the same number of directions again tells whether it is worth it.
+constexpr std::uint64_t first_carried = 128;
+/// From so many leaves on, quarters of all of them cost more than a whole buffer (paper §3.1.2).
+constexpr std::uint32_t most_leaves_for_subpatch = 100'000;
 
 /// Directions until the estimate is refreshed: one at a time up to 8, then four blocks an octave.
 std::uint64_t block_length(std::uint64_t done, Averaging averaging) {
@@ -46,11 +57,11 @@ public:
           options_(options),
           workers_(workers),
           monitor_(monitor),
-          buffer_(mesh, patches, options.pixel_size),
+          transfer_(mesh, patches, options.pixel_size, options.seed, workers),
           clusters_(options.averaging == Averaging::balanced ? make_clusters(mesh, patches)
                                                              : Clusters{}),
-          transfer_(clusters_.count),
-          earlier_transfer_(clusters_.count),
+          between_clusters_(clusters_.count),
+          earlier_between_clusters_(clusters_.count),
           exchange_(patches.leaf_count, clusters_, workers),
           component_(mesh, patches, sources, workers),
           environment_(sources.environment),
@@ -64,10 +75,11 @@ public:
         while (done_ < options_.iterations && !stopped()) {
             begin_block();
             const std::uint64_t block = block_length(done_, options_.averaging);
-            component_.send(exchange_, brightest_environment(block), most_fragments(block));
+            component_.send(exchange_, brightest_environment(block), most_fragments(block),
+                            transfer_.headroom());
             std::uint64_t in_block = 0;
             do {
-                transfer(bundle(in_block), weight_after(block));
+                transfer(transfer_.bundle(done_ + in_block), weight_after(block));
                 ++in_block;
                 monitor_.progress(
                     {"transport", done_ + in_block, options_.iterations, relative_error_});
@@ -78,16 +90,13 @@ public:
     }
 
 private:
-    Bundle bundle(std::uint64_t in_block) const {
-        return sample_bundle(static_cast<std::uint32_t>(done_ + in_block), options_.seed);
-    }
-
     void transfer(const Bundle& bundle, double weight) {
         if (environment_.shines())
             exchange_.set_environment(environment_.radiance(-bundle.frame[2]),
                                       environment_.radiance(bundle.frame[2]));
         if (is_glossy_) component_.send_along(exchange_, bundle);
-        exchange_.transfer(buffer_, bundle);
+        transfer_.transfer(exchange_, component_, bundle);
+        if (effect_) effect_->add(*transfer_.residual(), workers_);
         if (is_glossy_) component_.receive_along(exchange_, bundle, weight);
     }
 
@@ -97,19 +106,20 @@ private:
                                                          : 1.0;
     }
 
-    float brightest_environment(std::uint64_t block) const {
+    float brightest_environment(std::uint64_t block) {
         float brightest = 0.0f;
         for (std::uint64_t i = 0; environment_.shines() && i < block; ++i)
             for (const double way : {-1.0, 1.0})
-                brightest = std::max(brightest,
-                                     max_channel(environment_.radiance(way * bundle(i).frame[2])));
+                brightest = std::max(
+                    brightest,
+                    max_channel(environment_.radiance(way * transfer_.bundle(done_ + i).frame[2])));
         return brightest;
     }
 
     /// A patch is a planar triangle: it covers a pixel at most once a direction.
     double most_fragments(std::uint64_t block) const {
         const double diagonal_pixels =
-            std::min(16384.0, scene_diagonal() / buffer_.pixel_size() + 4.0);
+            std::min(16384.0, scene_diagonal() / transfer_.pixel_size() + 4.0);
         // The environment is met twice a pixel.
         return 2.0 * diagonal_pixels * diagonal_pixels * static_cast<double>(block);
     }
@@ -124,19 +134,58 @@ private:
     }
 
     void begin_block() {
+        const std::uint64_t first = options_.averaging == Averaging::paper ? 0 : first_carried;
+        if (options_.monte_carlo != MonteCarlo::off && done_ == first) begin_carrying();
         if (!balances_at(done_) || done_ > last_restart) return;
         component_.restart();
-        earlier_transfer_ = std::move(transfer_);
-        transfer_ = ClusterTransfer(clusters_.count);
+        earlier_between_clusters_ = std::move(between_clusters_);
+        between_clusters_ = ClusterTransfer(clusters_.count);
+    }
+
+    void begin_carrying() {
+        representation_ = options_.monte_carlo;
+        if (options_.monte_carlo == MonteCarlo::automatic) {
+            representation_ = patches_.leaf_count < most_leaves_for_subpatch
+                                  ? MonteCarlo::subpatch
+                                  : MonteCarlo::wavefront;
+            effect_.emplace(patches_.leaf_count);
+        }
+        transfer_.carry(representation_, component_);
+    }
+
+    /// What changes less than the error that is to be expected is carried no more.
+    void decide_on_carrying() {
+        residual_effect_ = effect_->root_mean_square(leaf_area_) / mean_incoming();
+        effect_.reset();
+        const double expected = options_.target_error > 0.0
+                                    ? options_.target_error
+                                    : relative_error_ * static_cast<double>(done_) /
+                                          static_cast<double>(std::max(done_, options_.iterations));
+        if (!(residual_effect_ > expected)) transfer_.carry_no_more();
+    }
+
+    double mean_incoming() const {
+        double mean = 0.0, area = 0.0;
+        for (std::uint32_t p = 0; p < component_.patch_count(); ++p) {
+            if (component_.coverage(p) == 0.0) continue;
+            const double a = leaf_area_[patches_.leaf_of_patch(p)];
+            area += a;
+            mean += a * luminance(component_.incoming(p));
+        }
+        return mean / area;
     }
 
     void end_block(std::uint64_t directions) {
-        component_.average_in(exchange_, directions, weight_after(directions));
+        component_.average_in(exchange_, directions, weight_after(directions),
+                              effect_ ? &*effect_ : nullptr);
         done_ += directions;
-        if (options_.averaging == Averaging::balanced) exchange_.collect(transfer_);
+        if (options_.averaging == Averaging::balanced) exchange_.collect(between_clusters_);
         if (balances_at(done_)) balance();
         if (done_ >= 2 * last_restart) forget();
-        if (done_ > last_restart) relative_error_ = estimate_error();
+        if (done_ > last_restart)
+            relative_error_ = estimate_relative_error(component_, leaf_area_, workers_);
+        if (effect_ && done_ >= 3 * first_carried / 2) effect_->begin_second_half();
+        if (effect_ && done_ >= 2 * first_carried) decide_on_carrying();
     }
 
     bool balances_at(std::uint64_t done) const {
@@ -146,58 +195,18 @@ private:
 
     void recall() {
         component_.recall();
-        transfer_ += earlier_transfer_;
+        between_clusters_ += earlier_between_clusters_;
     }
 
     void forget() {
         component_.forget();
-        earlier_transfer_ = ClusterTransfer(clusters_.count);
+        earlier_between_clusters_ = ClusterTransfer(clusters_.count);
     }
 
     void balance() {
-        balance_energy(component_, clusters_, transfer_,
+        balance_energy(component_, clusters_, between_clusters_,
                        done_ == first_balance ? BalanceShape::flat : BalanceShape::kept);
         if (done_ == first_balance) component_.forget_error();
-    }
-
-    /// Root mean square error over the mean, both weighted with area, of the luminance.
-    double estimate_error() const {
-        struct Sums {
-            double variance = 0.0, mean = 0.0, seen = 0.0, unseen = 0.0;
-        };
-        constexpr std::uint32_t range = 1 << 14;  // fixed, so that sums don't depend on the threads
-        std::vector<Sums> partial(component_.patch_count() / range + 1);
-        workers_.for_ranges(partial.size(), 1, [&](std::size_t begin, std::size_t end, int) {
-            for (std::size_t r = begin; r < end; ++r) {
-                const auto first = static_cast<std::uint32_t>(r * range);
-                for (std::uint32_t p = first; p < std::min(first + range, component_.patch_count());
-                     ++p) {
-                    const double area = area_of_patch(p);
-                    const bool seen = component_.coverage(p) > 0.0;
-                    (seen ? partial[r].seen : partial[r].unseen) += area;
-                    if (!seen) continue;
-                    partial[r].mean += area * luminance(component_.incoming(p));
-                    partial[r].variance += area * luminance(component_.incoming_variance(p));
-                }
-            }
-        });
-        Sums all;
-        for (const Sums& s : partial) {
-            all.mean += s.mean;
-            all.variance += s.variance;
-            all.seen += s.seen;
-            all.unseen += s.unseen;
-        }
-        if (all.seen == 0.0) return std::numeric_limits<double>::quiet_NaN();
-        if (all.mean == 0.0) return 0.0;
-        // Of a patch that no direction has met nothing is known: an error as large as the mean.
-        const double mean = all.mean / all.seen;
-        return std::sqrt((all.variance + all.unseen * mean * mean) / (all.seen + all.unseen)) /
-               mean;
-    }
-
-    double area_of_patch(std::uint32_t patch) const {
-        return leaf_area_[patches_.leaf_of_patch(patch)];
     }
 
     bool stopped() {
@@ -228,16 +237,32 @@ private:
             result.coverage[p] = static_cast<float>(component_.fragments(p));
         }
         result.iterations = done_;
-        const double error = estimate_error();
+        const double error = estimate_relative_error(component_, leaf_area_, workers_);
         result.relative_error = std::isfinite(error) ? error : 1.0;
         result.interrupted = interrupted_;
         result.fragments = exchange_.fragments();
         // A direction sees a patch of area A under A/2 on average.
-        const double pixel_area = buffer_.pixel_size() * buffer_.pixel_size();
+        const double pixel_area = transfer_.pixel_size() * transfer_.pixel_size();
         result.escaped = component_.escaped() * (2.0 * std::numbers::pi * pixel_area);
         result.entered = component_.entered() * (2.0 * std::numbers::pi * pixel_area);
         result.glossy_elements = component_.glossy_values();
+        add_residual_to(result);
         return result;
+    }
+
+    void add_residual_to(TransportResult& result) const {
+        result.monte_carlo = representation_;
+        result.carried = transfer_.carried();
+        result.carried_to_the_end = transfer_.residual() != nullptr;
+        result.residual_effect = residual_effect_;
+        // Along the first direction nothing is carried yet.
+        if (result.carried < 2) return;
+        const double directions = static_cast<double>(result.carried) - 1.0;
+        for (std::uint32_t p = 0; p < component_.patch_count(); ++p) {
+            const ResidualNorms norms = transfer_.norms(p);
+            result.spatial_error.push_back(static_cast<float>(norms.spatial / directions));
+            result.directional_error.push_back(static_cast<float>(norms.directional / directions));
+        }
     }
 
     const SurfaceMesh& mesh_;
@@ -245,14 +270,17 @@ private:
     const IterationOptions& options_;
     const Workers& workers_;
     Monitor& monitor_;
-    TransilluminationBuffer buffer_;
+    BundleTransfer transfer_;
     Clusters clusters_;
-    ClusterTransfer transfer_, earlier_transfer_;
+    ClusterTransfer between_clusters_, earlier_between_clusters_;
     Exchange exchange_;
     FiniteElementComponent component_;
     const Environment& environment_;
     bool is_glossy_;
     std::vector<double> leaf_area_;
+    MonteCarlo representation_ = MonteCarlo::off;
+    std::optional<ResidualEffect> effect_;  ///< while it is being measured
+    double residual_effect_ = std::numeric_limits<double>::quiet_NaN();
     std::uint64_t done_ = 0;
     double relative_error_ = std::numeric_limits<double>::quiet_NaN();
     bool interrupted_ = false;

@@ -97,6 +97,10 @@ void TransilluminationBuffer::project(const Bundle& bundle, const Workers& worke
         glm::dvec2(bundle.offset_x, bundle.offset_y) * fixed_unit - glm::dvec2(b.low) * scale;
     const double range = b.high.z - b.low.z;
     const double depth_scale = range > 0.0 ? (0x1p63 - 2.0 * depth_margin) / range : 0.0;
+    constexpr double depth_step = 0x1p32;  // fragments keep the upper bits
+    window_ = {bundle.frame,
+               glm::dvec3(1.0 / pixel_size_, 1.0 / pixel_size_, depth_scale / depth_step),
+               glm::dvec3(shift / fixed_unit, (depth_margin - b.low.z * depth_scale) / depth_step)};
     width_ = static_cast<int>(std::ceil((b.high.x - b.low.x) / pixel_size_)) + 2;
     height_ = static_cast<int>(std::ceil((b.high.y - b.low.y) / pixel_size_)) + 2;
     tiles_x_ = (width_ + tile_size - 1) / tile_size;
@@ -152,6 +156,7 @@ void TransilluminationBuffer::trace(const Bundle& bundle, const Workers& workers
                                visit({s.rect.x1 - s.rect.x0,
                                       s.rect.y1 - s.rect.y0,
                                       s.rect.y0,
+                                      s.rect.x0,
                                       s.first,
                                       {s.sorted.data(), s.count}},
                                      worker);

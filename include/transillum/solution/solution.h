@@ -47,8 +47,11 @@ struct Solution {
     std::vector<Spectrum> direct_irradiance;    ///< by first shot [W m^-2]
     std::vector<Spectrum> indirect_irradiance;  ///< by the iteration [W m^-2]
     std::vector<Spectrum> standard_error;       ///< of the finite-element radiance [W sr^-1 m^-2]
-    std::vector<float> coverage;                ///< fragments seen, summed over directions
-    std::vector<Spectrum> glossy_elements;      ///< as glossy_sides.h lays them out
+    /// V_s and V_d of the Monte-Carlo component [W^2 sr^-2 m^-4] (see TransportResult). May be
+    /// empty.
+    std::vector<float> spatial_error, directional_error;
+    std::vector<float> coverage;            ///< fragments seen, summed over directions
+    std::vector<Spectrum> glossy_elements;  ///< as glossy_sides.h lays them out
 
     std::uint64_t iterations = 0;  ///< directions transferred, each both ways
     std::uint64_t seed = 0;

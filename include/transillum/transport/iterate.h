@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <vector>
 
 namespace transillum {
@@ -18,6 +19,15 @@ namespace transillum {
 enum class Averaging {
     balanced,  ///< growing weights, feedback refreshed in blocks, energy balance at powers of two
     paper      ///< eq. (5): the 1/m average is fed back after every direction
+};
+
+/// Representation of the Monte-Carlo component (paper §3.1), which is carried from bundle to
+/// bundle.
+enum class MonteCarlo {
+    automatic,  ///< by the number of patches, and only where it is worth it
+    off,
+    subpatch,  ///< constant on the quarters of every patch (§3.1.2)
+    wavefront  ///< in the last transillumination buffer (§3.1.1)
 };
 
 struct IterationOptions {
@@ -28,6 +38,7 @@ struct IterationOptions {
     double pixel_size = 0.0;  ///< of the transillumination buffer [scene units]
     std::uint64_t seed = 1;
     Averaging averaging = Averaging::balanced;
+    MonteCarlo monte_carlo = MonteCarlo::off;
 };
 
 /// Light of the first shot that arrives at a patch from about one direction.
@@ -71,6 +82,17 @@ struct TransportResult {
     SpectrumSum escaped{0.0};     ///< flux that left the scene [radiance * sr * square scene units]
     SpectrumSum entered{0.0};     ///< flux that came in from the environment, likewise
     std::uint64_t fragments = 0;  ///< exchanged, over all directions
+
+    /// Of the Monte-Carlo component: how it was represented, for how many directions it was
+    /// carried, and how much of the mean of what patches receive came with it, as far as that was
+    /// measured: NaN unless automatic.
+    MonteCarlo monte_carlo = MonteCarlo::off;
+    std::uint64_t carried = 0;
+    bool carried_to_the_end = false;
+    double residual_effect = std::numeric_limits<double>::quiet_NaN();
+    /// Its norms (§3.2) [W^2 sr^-2 m^-4], one a patch, means over directions of the luminance: V_s,
+    /// its variance within a patch, and V_d, the square of its mean. Empty unless carried.
+    std::vector<float> spatial_error, directional_error;
 };
 
 /// \pre every vector of `sources` has patches.patch_count() finite, non-negative entries, albedo at

@@ -58,9 +58,23 @@ struct Bundle {
 /// + column.
 struct TileLists {
     int width = 0, height = 0;
-    int row0 = 0;  ///< the tile's first row in the window
+    int row0 = 0, column0 = 0;  ///< the tile's first pixel in the window
     std::span<const std::uint32_t> first;
     std::span<const Fragment> fragments;
+};
+
+/// Where points of the scene lie in a bundle's window.
+struct WindowTransform {
+    glm::dmat3 axes{1.0};   ///< the bundle's frame
+    glm::dvec3 scale{1.0};  ///< pixels, and steps of a fragment's depth, to a scene unit
+    glm::dvec3 shift{0.0};
+    /// x, y: pixels, centres at whole numbers; z: as a fragment's upper 32 bits.
+    [[nodiscard]] glm::dvec3 to_window(const glm::dvec3& point) const {
+        return point * axes * scale + shift;
+    }
+    [[nodiscard]] glm::dvec3 to_scene(const glm::dvec3& window) const {
+        return axes * ((window - shift) / scale);
+    }
 };
 
 class TransilluminationBuffer {
@@ -80,6 +94,8 @@ public:
     [[nodiscard]] double pixel_size() const { return pixel_size_; }
     [[nodiscard]] int window_width() const { return width_; }  ///< of the last bundle [pixels]
     [[nodiscard]] int window_height() const { return height_; }
+    /// Of the last bundle; of the one being traced, for a visitor.
+    [[nodiscard]] const WindowTransform& window() const { return window_; }
 
 private:
     struct Scratch;
@@ -107,6 +123,7 @@ private:
     double pixel_size_;
     double plane_tolerance_;  ///< what snapping may move a vertex out of its plane
     int width_ = 0, height_ = 0, tiles_x_ = 0, tiles_y_ = 0;
+    WindowTransform window_;
     std::vector<ProjectedVertex> projected_;
     std::vector<Bins> bins_;
     std::vector<Scratch> scratch_;  ///< one a worker

@@ -96,6 +96,10 @@ PolyData radiance_piece(const Solution& solution, const Patches& stored) {
     add("IndirectIrradiance", [&](std::uint32_t p) { return solution.indirect_irradiance[p]; });
     add("StandardError", [&](std::uint32_t p) { return solution.standard_error[p]; });
     add("Coverage", [&](std::uint32_t p) { return solution.coverage[p]; });
+    if (!solution.spatial_error.empty()) {
+        add("ErrorSpatial", [&](std::uint32_t p) { return solution.spatial_error[p]; });
+        add("ErrorDirectional", [&](std::uint32_t p) { return solution.directional_error[p]; });
+    }
     add_provenance(solution, stored, cells);
     add_bins(solution, stored, *piece);
     cells.SetActiveScalars("Radiance");
@@ -113,6 +117,10 @@ void read_radiance_piece(vtkPolyData& piece, const Path& file, Solution& solutio
     read("IndirectIrradiance", solution.indirect_irradiance);
     read("StandardError", solution.standard_error);
     read("Coverage", solution.coverage);
+    if (reader.has("ErrorSpatial") || reader.has("ErrorDirectional")) {
+        read("ErrorSpatial", solution.spatial_error);
+        read("ErrorDirectional", solution.directional_error);
+    }
     read_bins(piece, file, stored, solution);
 }
 

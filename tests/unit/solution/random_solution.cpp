@@ -185,6 +185,10 @@ void light_patch(Dice& dice, const Shape& shape, Solution& solution, std::uint32
     solution.indirect_irradiance.push_back(value());
     solution.standard_error.push_back(value());
     solution.coverage.push_back(share());
+    if (shape.norms) {
+        solution.spatial_error.push_back(share());
+        solution.directional_error.push_back(share());
+    }
     for (int i = 0; i < shape.light_samples; ++i) {
         solution.direct.geometry_factor.push_back(share());
         solution.direct.visibility.push_back(share());
@@ -365,9 +369,9 @@ void expect_equal(const GlossySides& a, const GlossySides& b) {
 
 void expect_equal(const Solution& a, const Solution& b) {
     const auto& [surface, patches, direct, glossy, lighting, cameras, leaf_diffuse, leaf_emission,
-                 direct_irradiance, indirect_irradiance, standard_error, coverage, glossy_elements,
-                 iterations, seed, relative_error, interrupted, balance, decisions, settings,
-                 scene_hash] = a;
+                 direct_irradiance, indirect_irradiance, standard_error, spatial_error, directional_error,
+                 coverage, glossy_elements, iterations, seed, relative_error, interrupted, balance,
+                 decisions, settings, scene_hash] = a;
     expect_equal(surface, b.surface);
     EXPECT_TRUE(leaf_diffuse == b.leaf_diffuse);
     EXPECT_TRUE(leaf_emission == b.leaf_emission);
@@ -378,6 +382,8 @@ void expect_equal(const Solution& a, const Solution& b) {
     EXPECT_TRUE(direct_irradiance == b.direct_irradiance);
     EXPECT_TRUE(indirect_irradiance == b.indirect_irradiance);
     EXPECT_TRUE(standard_error == b.standard_error);
+    EXPECT_EQ(spatial_error, b.spatial_error);
+    EXPECT_EQ(directional_error, b.directional_error);
     EXPECT_EQ(coverage, b.coverage);
     expect_equal(glossy, b.glossy);
     EXPECT_TRUE(glossy_elements == b.glossy_elements);

@@ -17,6 +17,7 @@ struct Shape {
     bool uvs = false;  ///< and textures
     bool one_sided = false;
     bool lit = true;
+    bool norms = false;  ///< of a Monte-Carlo component
     int lights = 0;  ///< without extent
     Environment::Kind environment = Environment::Kind::none;
 };

@@ -63,7 +63,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Shape{.light_samples = 5, .lights = 5, .environment = Environment::Kind::clear},
                     Shape{.lights = 2, .environment = Environment::Kind::image},
                     Shape{.lit = false}, Shape{.levels = {}, .light_samples = 0},
-                    Shape{.splits = 3}, Shape{.splits = 4, .lit = false},
+                    Shape{.splits = 3, .norms = true}, Shape{.splits = 4, .lit = false},
                     Shape{.levels = {0, 3, 0, 1, 5, 0}, .splits = 2, .light_samples = 1}));
 
 TEST(Solution, SurvivesAnyFileName) {

@@ -1,0 +1,44 @@
+#include "transport/relative_error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace transillum {
+
+double estimate_relative_error(const FiniteElementComponent& component,
+                               std::span<const double> leaf_area, const Workers& workers) {
+    struct Sums {
+        double variance = 0.0, mean = 0.0, seen = 0.0, unseen = 0.0;
+    };
+    constexpr std::uint32_t range = 1 << 14;  // fixed, so that sums don't depend on the threads
+    std::vector<Sums> partial(component.patch_count() / range + 1);
+    workers.for_ranges(partial.size(), 1, [&](std::size_t begin, std::size_t end, int) {
+        for (std::size_t r = begin; r < end; ++r) {
+            const auto first = static_cast<std::uint32_t>(r * range);
+            for (std::uint32_t p = first; p < std::min(first + range, component.patch_count());
+                 ++p) {
+                const double area = leaf_area[p % leaf_area.size()];
+                const bool seen = component.coverage(p) > 0.0;
+                (seen ? partial[r].seen : partial[r].unseen) += area;
+                if (!seen) continue;
+                partial[r].mean += area * luminance(component.incoming(p));
+                partial[r].variance += area * luminance(component.incoming_variance(p));
+            }
+        }
+    });
+    Sums all;
+    for (const Sums& s : partial) {
+        all.mean += s.mean;
+        all.variance += s.variance;
+        all.seen += s.seen;
+        all.unseen += s.unseen;
+    }
+    if (all.seen == 0.0) return std::numeric_limits<double>::quiet_NaN();
+    if (all.mean == 0.0) return 0.0;
+    // Of a patch that no direction has met nothing is known: an error as large as the mean.
+    const double mean = all.mean / all.seen;
+    return std::sqrt((all.variance + all.unseen * mean * mean) / (all.seen + all.unseen)) / mean;
+}
+
+}  // namespace transillum
