@@ -1,9 +1,9 @@
 #include "solution/baker.h"
 
+#include <transillum/solution/patch_sources.h>
 #include "solution/energy.h"
 #include "solution/leaf_colours.h"
 #include "solution/memory_estimate.h"
-#include "solution/patch_sources.h"
 
 #include <transillum/first_shot/shoot_direct_light.h>
 #include <transillum/visibility/transillumination_buffer.h>
@@ -16,22 +16,6 @@
 namespace transillum {
 
 namespace {
-
-constexpr double pixels_a_leaf_edge = 3.0;
-constexpr int least_resolution = 256, largest_resolution = 4096;
-
-/// So many pixels that an average leaf (by area) is three wide.
-double automatic_pixel_size(const SurfaceMesh& mesh, const PatchHierarchy& patches) {
-    double area = 0.0, weighted_edge = 0.0;
-    for (std::uint32_t leaf = 0; leaf < patches.leaf_count; ++leaf) {
-        const double a = area_of_leaf(mesh, patches, leaf);
-        area += a;
-        weighted_edge += a * std::sqrt(2.0 * a);
-    }
-    const double wanted = weighted_edge / area / pixels_a_leaf_edge;
-    return std::clamp(wanted, pixel_size_for(mesh, largest_resolution),
-                      pixel_size_for(mesh, least_resolution));
-}
 
 void decide_first_shot(const Luminaires& luminaires, FirstShot choice,
                        std::vector<Decision>& decisions) {

@@ -1,4 +1,4 @@
-#include "solution/patch_sources.h"
+#include <transillum/solution/patch_sources.h>
 
 #include "solution/incoming_light.h"
 

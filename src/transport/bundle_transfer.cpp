@@ -56,6 +56,11 @@ void BundleTransfer::transfer(Exchange& exchange, const FiniteElementComponent& 
     ++carried_;
 }
 
+void BundleTransfer::transfer_alone(Exchange& exchange, const Bundle& bundle) {
+    residual_->reflect(reflections_, exchange);
+    exchange.transfer(*buffer_, bundle, *residual_);
+}
+
 ResidualNorms BundleTransfer::norms(std::uint32_t patch) const {
     const std::uint32_t slot = slot_of_patch(patch, patches_.leaf_count);
     return residual_ ? residual_->norms(slot) : norms_[slot];

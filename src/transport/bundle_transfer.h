@@ -31,6 +31,8 @@ public:
     /// Bound of what a point sends over what any patch does.
     [[nodiscard]] float headroom() const { return headroom_; }
 
+    /// One bundle of what the elements send alone, of which residual() then knows what arrived.
+    void transfer_alone(Exchange& exchange, const Bundle& bundle);
     void transfer(Exchange& exchange, const FiniteElementComponent& elements, const Bundle& bundle);
 
     /// Sums of the norms of a patch, over carried() directions, whether still carried or not.

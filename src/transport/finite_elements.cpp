@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace transillum {
 
@@ -55,6 +56,16 @@ void FiniteElementComponent::average_in(Exchange& exchange, std::uint64_t direct
     entered_ += weight * exchange.take_entered().radiance;
     weights_ += weight * static_cast<double>(directions);
     ++blocks_;
+}
+
+void FiniteElementComponent::restore(std::span<const Spectrum> irradiance,
+                                     std::span<const Spectrum> glossy_values) {
+    for (std::size_t p = 0; p < sums_.size(); ++p) {
+        sums_[p] = {};
+        sums_[p].coverage = 1.0;
+        sums_[p].received = SpectrumSum(irradiance[p]) * std::numbers::inv_pi;
+    }
+    glossy_.restore(glossy_values);
 }
 
 void FiniteElementComponent::restart() {

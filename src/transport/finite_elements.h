@@ -56,6 +56,9 @@ public:
     /// Bound of a residual over what arrives.
     [[nodiscard]] float largest_gain() const { return 2.0f + glossy_.largest_gain(); }
 
+    /// Sets the estimate, as if one fragment a patch and bin had brought it.
+    void restore(std::span<const Spectrum> irradiance, std::span<const Spectrum> glossy_values);
+
     /// Takes a block of directions. \param weight of each of its directions in the average.
     /// \param effect told what every patch received, where given
     void average_in(Exchange& exchange, std::uint64_t directions, double weight,

@@ -306,6 +306,11 @@ void GlossyElements::set_incoming(std::uint32_t patch, const SpectrumSum& incomi
     for_bins(patch, [&](Sum& s) { s = s[3] * Sum{x.x, x.y, x.z, 1.0f}; });
 }
 
+void GlossyElements::restore(std::span<const Spectrum> values) {
+    for (std::size_t i = 0; i < sums_.size(); ++i)
+        sums_[i] = Sum{values[i].x, values[i].y, values[i].z, 1.0f};
+}
+
 void GlossyElements::restart(float prior_weight) {
     earlier_ = sums_;
     for (Sum& s : sums_)

@@ -56,6 +56,7 @@ public:
     void set_incoming(std::uint32_t patch, const SpectrumSum& incoming);
 
     // As FiniteElementComponent's.
+    void restore(std::span<const Spectrum> values);
     void restart(float prior_weight);
     void recall();
     void forget();

@@ -14,6 +14,7 @@
 #include <transillum/base/parallel.h>
 #include <transillum/geometry/patch_hierarchy.h>
 #include <transillum/geometry/surface_mesh.h>
+#include <transillum/transport/bundle_light.h>
 
 #include <memory>
 #include <span>
@@ -64,6 +65,10 @@ public:
 
     /// Mean of what the finite elements sent to a slot along the last bundle, and its coverage.
     [[nodiscard]] const Arrived& arrived(std::uint32_t slot) const { return arrived_[slot]; }
+    /// Radiance of the finite elements that arrived along the last bundle at a point of a patch,
+    /// and over a side of one of the cells; the patch's mean where no sample tells better.
+    [[nodiscard]] virtual Spectrum incoming(const SurfaceSide& point) const = 0;
+    [[nodiscard]] virtual Spectrum incoming_of_cell(std::uint32_t cell_patch) const = 0;
     /// Norms of a slot, over so many directions.
     [[nodiscard]] const ResidualNorms& norms(std::uint32_t slot) const { return norms_[slot]; }
     [[nodiscard]] std::uint64_t directions() const { return directions_; }

@@ -81,6 +81,18 @@ public:
         });
     }
 
+    [[nodiscard]] Spectrum incoming(const SurfaceSide& p) const override {
+        const std::uint32_t cell = split_.patches.leaf_at(p.root, p.b1, p.b2);
+        return incoming_of_cell(p.back ? cell + split_.patches.leaf_count : cell);
+    }
+
+    [[nodiscard]] Spectrum incoming_of_cell(std::uint32_t cell_patch) const override {
+        const std::uint32_t slot = slot_of_patch(cell_patch, split_.patches.leaf_count);
+        const Lanes& mean = mean_[slot];
+        if (mean[3] > 0.0f) return {mean[0], mean[1], mean[2]};
+        return arrived_[2 * split_.parent[slot / 2] + slot % 2].radiance;
+    }
+
 private:
     [[nodiscard]] std::array<std::uint32_t, quarters> cell_slots(std::uint32_t slot) const {
         std::array<std::uint32_t, quarters> slots = children_[slot / 2];

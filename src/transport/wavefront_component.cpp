@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdlib>
 #include <utility>
@@ -105,8 +106,55 @@ public:
         });
     }
 
+    [[nodiscard]] Spectrum incoming(const SurfaceSide& p) const override {
+        const std::uint32_t leaf = patches_.leaf_at(p.root, p.b1, p.b2);
+        const glm::dvec3 at = current_.window.to_window(p.position);
+        // The same point has the same neighbours in every thread.
+        const std::uint64_t random = hash_bits(std::bit_cast<std::uint64_t>(at.x) ^
+                                               hash_bits(std::bit_cast<std::uint64_t>(at.y)));
+        const WavePoint* const w = find(current_, p.root, at, random);
+        if (!w)
+            return arrived(slot_of_patch(p.back ? leaf + patches_.leaf_count : leaf,
+                                         patches_.leaf_count))
+                .radiance;
+        // Light along the direction meets the lower side, which is the back of what faces forwards.
+        const bool is_lower = ((w->surface & 1u) != 0) == p.back;
+        return w->arrived[is_lower ? 0 : 1];
+    }
+
+    [[nodiscard]] Spectrum incoming_of_cell(std::uint32_t cell_patch) const override {
+        return arrived(slot_of_patch(cell_patch, patches_.leaf_count)).radiance;
+    }
+
 private:
     struct Layer;
+
+    /// The point of a wavefront that stands for one of a root: of one of the four nearest pixels,
+    /// drawn by their bilinear weights. Null where none does. \param at in its window
+    [[nodiscard]] const WavePoint* find(const Wavefront& wavefront, std::uint32_t root,
+                                        const glm::dvec3& at, std::uint64_t random) const {
+        const double u = static_cast<double>(random >> 32) * 0x1p-32;
+        const double v = static_cast<double>(random & 0xffffffffu) * 0x1p-32;
+        const auto list = wavefront.list(static_cast<std::int64_t>(std::floor(at.x + u)),
+                                         static_cast<std::int64_t>(std::floor(at.y + v)));
+        const float cosine = glm::dot(normal_[root], wavefront.direction);
+        const std::uint32_t forwards = cosine > 0.0f ? 1 : 0;
+        const std::uint32_t surface = 2 * group_[root] + forwards;
+        const double c2 = double{cosine} * cosine;
+        const double slope =
+            std::min(largest_slope, std::sqrt(std::max(0.0, 1.0 - c2) / std::max(c2, 1e-12)));
+        const double depth_a_pixel = wavefront.window.scale.z / wavefront.window.scale.x;
+        double nearest = depth_pixels * depth_a_pixel * (1.0 + slope);
+        const WavePoint* found = nullptr;
+        for (const WavePoint& w : list) {
+            if (w.surface == surface) return &w;
+            const double distance = std::abs(w.depth - at.z);
+            if ((w.surface & 1u) != forwards || distance >= nearest) continue;
+            nearest = distance;
+            found = &w;
+        }
+        return found;
+    }
 
     [[nodiscard]] double norm_step(double unit) const {
         return unit * std::ldexp(1.0, exchange_->bits() - norm_bits);
@@ -159,7 +207,6 @@ struct WavefrontComponent::Layer {
             axis[i] = 1.0;
             to_last[i] = in_last(axis) - origin;
         }
-        depth_a_pixel = c.last_.window.scale.z / c.last_.window.scale.x;
         key = hash_bits(c.directions_);
     }
 
@@ -191,34 +238,13 @@ struct WavefrontComponent::Layer {
     }
 
 private:
-    /// The point of the last wavefront that stands for a fragment: of one of the four nearest
-    /// pixels, drawn by their bilinear weights.
-    const WavePoint* find(Fragment f, std::uint32_t root, int column, int row) const {
+    [[nodiscard]] const WavePoint* find(Fragment f, std::uint32_t root, int column, int row) const {
         const glm::dvec3 at =
             origin + to_last * glm::dvec3(column, row, static_cast<double>(f >> 32));
         const std::uint64_t random =
             hash_bits(key ^ (static_cast<std::uint64_t>(column) << 32 ^
                              static_cast<std::uint64_t>(row) << 8 ^ f >> 32 << 16));
-        const double u = static_cast<double>(random >> 32) * 0x1p-32;
-        const double v = static_cast<double>(random & 0xffffffffu) * 0x1p-32;
-        const auto list = c.last_.list(static_cast<std::int64_t>(std::floor(at.x + u)),
-                                       static_cast<std::int64_t>(std::floor(at.y + v)));
-        const float cosine = glm::dot(c.normal_[root], c.last_.direction);
-        const std::uint32_t forwards = cosine > 0.0f ? 1 : 0;
-        const std::uint32_t surface = 2 * c.group_[root] + forwards;
-        const double c2 = double{cosine} * cosine;
-        const double slope =
-            std::min(largest_slope, std::sqrt(std::max(0.0, 1.0 - c2) / std::max(c2, 1e-12)));
-        double nearest = depth_pixels * depth_a_pixel * (1.0 + slope);
-        const WavePoint* found = nullptr;
-        for (const WavePoint& w : list) {
-            if (w.surface == surface) return &w;
-            const double distance = std::abs(w.depth - at.z);
-            if ((w.surface & 1u) != forwards || distance >= nearest) continue;
-            nearest = distance;
-            found = &w;
-        }
-        return found;
+        return c.find(c.last_, root, at, random);
     }
 
     /// \param arrived null where nothing is known but the patch's mean
@@ -243,7 +269,6 @@ private:
     double steps;
     glm::dvec3 origin{0.0};
     glm::dmat3 to_last{1.0};
-    double depth_a_pixel = 0.0;
     std::uint64_t key = 0;
 };
 

@@ -56,6 +56,20 @@ double pixel_size_for(const SurfaceMesh& mesh, int resolution) {
     return (size.x + size.y + size.z) / 2.0 / resolution;
 }
 
+double automatic_pixel_size(const SurfaceMesh& mesh, const PatchHierarchy& patches) {
+    constexpr double pixels_a_leaf_edge = 3.0;
+    constexpr int least_resolution = 256, largest_resolution = 4096;
+    double area = 0.0, weighted_edge = 0.0;
+    for (std::uint32_t leaf = 0; leaf < patches.leaf_count; ++leaf) {
+        const double a = area_of_leaf(mesh, patches, leaf);
+        area += a;
+        weighted_edge += a * std::sqrt(2.0 * a);
+    }
+    const double wanted = weighted_edge / area / pixels_a_leaf_edge;
+    return std::clamp(wanted, pixel_size_for(mesh, largest_resolution),
+                      pixel_size_for(mesh, least_resolution));
+}
+
 TransilluminationBuffer::TransilluminationBuffer(const SurfaceMesh& mesh,
                                                  const PatchHierarchy& patches, double pixel_size)
     : mesh_(mesh), patches_(patches), pixel_size_(pixel_size), projected_(mesh.positions.size()) {

@@ -134,4 +134,8 @@ private:
 /// 8192].
 [[nodiscard]] double pixel_size_for(const SurfaceMesh& mesh, int resolution);
 
+/// Pixel size for which an average leaf (by area) is three pixels wide, of windows between 256 and
+/// 4096 wide.
+[[nodiscard]] double automatic_pixel_size(const SurfaceMesh& mesh, const PatchHierarchy& patches);
+
 }  // namespace transillum
