@@ -1,5 +1,6 @@
 #include <transillum/base/error.h>
 #include <transillum/solution/bake.h>
+#include <transillum/transport/choose_bins.h>
 #include <transillum/transport/choose_splits.h>
 
 #include "solution/baker.h"
@@ -48,8 +49,26 @@ void record_settings(const BakeOptions& o, Solution& s) {
         {"seed", fmt::format("{}", o.seed)}};
 }
 
-/// Directions of the first phase: enough for every patch to be met from all around.
-constexpr std::uint64_t first_phase = 64;
+/// Directions of the first phase: enough for every patch to be met from all around, and to tell its
+/// light from noise.
+constexpr std::uint64_t first_phase = 128;
+
+/// What the phases have come to.
+struct Refined {
+    std::vector<std::int8_t> bin_levels;
+    std::shared_ptr<const IterationSums> sums;  ///< null before the first
+    std::uint64_t directions = 0;
+};
+
+/// Bins of automatic levels are divided as the light asks for it, from one level above what the
+/// lobe alone would.
+std::vector<std::int8_t> first_bin_levels(const Solution& s, const BakeOptions& options) {
+    std::vector<std::int8_t> levels = choose_bin_levels(s.surface, options.bins);
+    if (options.refinement.phases > 0 && options.bins.level < 0)
+        for (std::int8_t& level : levels)
+            if (level > 0) --level;
+    return levels;
+}
 
 SplitChoice find_coarse_leaves(const Solution& s, const PatchHierarchy& patches,
                                const SplitPatches& children, const RefinementOptions& refinement,
@@ -62,29 +81,48 @@ SplitChoice find_coarse_leaves(const Solution& s, const PatchHierarchy& patches,
     return choose_splits(s.surface, patches, children, radiance, s.standard_error, direct, options);
 }
 
-/// Splits the patches of `s`, which has no radiance yet, where it is going to vary.
-Decision refine(Solution& s, const BakeOptions& options, const Baker& baker, Monitor& monitor) {
+/// Divides the bins where the radiance of a phase asks for it.
+std::uint32_t divide_bins(const Solution& phase, double tolerance, Refined& refined) {
+    std::vector<Spectrum> radiance;
+    for (std::uint32_t p = 0; p < phase.patches.patch_count(); ++p)
+        radiance.push_back(phase.finite_element_radiance(p));
+    BinChoice choice = choose_bins(
+        refined.bin_levels, phase.surface, phase.patches, phase.glossy, phase.glossy_elements,
+        tolerance * mean_luminance(phase.surface, phase.patches, radiance));
+    refined.bin_levels = std::move(choice.levels);
+    return choice.divided;
+}
+
+/// Splits the patches of `s`, which has no radiance yet, and divides their bins, where it is going
+/// to vary.
+Decision refine(Solution& s, const BakeOptions& options, const Baker& baker, Monitor& monitor,
+                Refined& refined) {
     const std::uint32_t before = s.patches.leaf_count;
     SplitOptions split{options.refinement.tolerance, options.refinement.max_leaves,
                        options.subdivision.max_level};
     if (split.max_leaves == 0) split.max_leaves = 4 * before;
     int phase = 0;
     bool limited = false;
-    std::uint64_t directions = first_phase;
+    const bool divides = options.bins.level < 0;
     for (; phase < options.refinement.phases && !monitor.stop_requested(); ++phase) {
         Solution trial = s;
         const SplitPatches children = split_all_leaves(s.patches);
         trial.patches = children.patches;
-        baker.run(trial, std::min(directions, options.iteration.iterations));
+        refined.directions = std::max(first_phase, 2 * refined.directions);
+        refined.sums = baker.run(
+            trial,
+            divides ? deeper_bins(refined.bin_levels, refined.directions) : refined.bin_levels,
+            refined.directions, refined.sums);
         if (options.refinement.keep_phase) options.refinement.keep_phase(trial, phase);
         const SplitChoice choice =
             find_coarse_leaves(trial, s.patches, children, options.refinement, split);
-        monitor.note(fmt::format("phase {}: {} of {} leaves split", phase + 1, choice.count,
-                                 s.patches.leaf_count));
+        const std::uint32_t divided =
+            divides ? divide_bins(trial, options.refinement.tolerance, refined) : 0;
+        monitor.note(fmt::format("phase {}: {} of {} leaves split, bins of {} glossy sides divided",
+                                 phase + 1, choice.count, s.patches.leaf_count, divided));
         limited = choice.limited;
-        if (choice.count == 0) break;
+        if (choice.count == 0 && divided == 0) break;
         s.patches = split_leaves(s.patches, choice.split).patches;
-        directions *= 2;
     }
     return {
         fmt::format("{} leaves refined to {} in {} phases", before, s.patches.leaf_count, phase),
@@ -108,10 +146,14 @@ Solution bake(const Scene& scene, const BakeOptions& options, const Workers& wor
     watch.lap("geometry");
 
     const Baker baker(options, workers, monitor, watch);
-    std::vector<Decision> refined;
-    if (options.refinement.phases > 0) refined.push_back(refine(s, options, baker, monitor));
-    baker.run(s, options.iteration.iterations);
-    s.decisions.insert(s.decisions.begin(), refined.begin(), refined.end());
+    Refined refined{first_bin_levels(s, options), {}, {}};
+    std::vector<Decision> decisions;
+    if (options.refinement.phases > 0)
+        decisions.push_back(refine(s, options, baker, monitor, refined));
+    // As many again as the phases took: what they inherited from larger patches must fade.
+    baker.run(s, refined.bin_levels, std::max(options.iteration.iterations, 2 * refined.directions),
+              refined.sums);
+    s.decisions.insert(s.decisions.begin(), decisions.begin(), decisions.end());
     warn_of_sharp_lobes(s, monitor);
     note_decisions(s, monitor);
     if (run) run->threads = workers.count();

@@ -77,16 +77,19 @@ void decide_monte_carlo(const TransportResult& t, MonteCarlo choice,
 
 }  // namespace
 
-void Baker::run(Solution& s, std::uint64_t iterations) const {
+std::shared_ptr<const IterationSums> Baker::run(Solution& s,
+                                                std::span<const std::int8_t> bin_levels,
+                                                std::uint64_t iterations,
+                                                std::shared_ptr<const IterationSums> start) const {
     s.decisions.clear();
-    s.glossy =
-        lay_out_glossy_sides(s.surface, s.patches, choose_bin_levels(s.surface, options_.bins));
+    s.glossy = lay_out_glossy_sides(s.surface, s.patches, bin_levels);
     decide_bins(s, options_.bins, s.decisions);
     average_textures(s);
     shoot(s);
     watch_.lap("first shot");
-    iterate_on(s, iterations);
+    auto sums = iterate_on(s, iterations, std::move(start));
     watch_.lap("transport");
+    return sums;
 }
 
 void Baker::shoot(Solution& s) const {
@@ -102,10 +105,13 @@ void Baker::shoot(Solution& s) const {
     s.interrupted = monitor_.stop_requested();
 }
 
-void Baker::iterate_on(Solution& s, std::uint64_t iterations) const {
+std::shared_ptr<const IterationSums> Baker::iterate_on(
+    Solution& s, std::uint64_t iterations, std::shared_ptr<const IterationSums> start) const {
     IterationOptions iteration = options_.iteration;
     iteration.iterations = iterations;
     iteration.seed = options_.seed;
+    iteration.start = std::move(start);
+    iteration.keep_sums = options_.refinement.phases > 0;
     iteration.pixel_size = options_.resolution > 0 ? pixel_size_for(s.surface, options_.resolution)
                                                    : automatic_pixel_size(s.surface, s.patches);
     const PatchSources sources = make_sources(s);
@@ -130,6 +136,7 @@ void Baker::iterate_on(Solution& s, std::uint64_t iterations) const {
     s.relative_error = transport.relative_error;
     s.interrupted = s.interrupted || transport.interrupted;
     s.balance = measure_balance(s, transport);
+    return transport.sums;
 }
 
 }  // namespace transillum

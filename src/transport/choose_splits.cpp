@@ -15,20 +15,6 @@ struct Candidate {
     double gain = 0.0;  ///< squared spread times area
 };
 
-/// Area-weighted mean luminance over all sides that shine at all.
-double mean_luminance(const SurfaceMesh& mesh, const PatchHierarchy& leaves,
-                      std::span<const Spectrum> radiance) {
-    double sum = 0.0, area = 0.0;
-    for (std::uint32_t p = 0; p < leaves.patch_count(); ++p) {
-        const double l = luminance(SpectrumSum(radiance[p]));
-        if (!(l > 0.0)) continue;
-        const double a = area_of_leaf(mesh, leaves, leaves.leaf_of_patch(p));
-        sum += a * l;
-        area += a;
-    }
-    return area > 0.0 ? sum / area : 0.0;
-}
-
 /// Where leaves of one plane meet: a place, and the normal to about a degree.
 struct Corner {
     glm::dvec3 place;
@@ -90,6 +76,19 @@ std::vector<double> ranges_at_corners(const std::vector<std::uint32_t>& corners,
 }
 
 }  // namespace
+
+double mean_luminance(const SurfaceMesh& mesh, const PatchHierarchy& patches,
+                      std::span<const Spectrum> radiance) {
+    double sum = 0.0, area = 0.0;
+    for (std::uint32_t p = 0; p < patches.patch_count(); ++p) {
+        const double l = luminance(SpectrumSum(radiance[p]));
+        if (!(l > 0.0)) continue;
+        const double a = area_of_leaf(mesh, patches, patches.leaf_of_patch(p));
+        sum += a * l;
+        area += a;
+    }
+    return area > 0.0 ? sum / area : 0.0;
+}
 
 SplitChoice choose_splits(const SurfaceMesh& mesh, const PatchHierarchy& patches,
                           const SplitPatches& children, std::span<const Spectrum> radiance,

@@ -36,8 +36,9 @@ Exchange::Exchange(std::uint32_t leaf_count, const Clusters& clusters, const Wor
 }
 
 FixedRadiance Exchange::fixed(const Spectrum& radiance) const {
+    const double a_unit = 1.0 / unit_;  // exact: a power of two
     const auto steps = [&](float x) {
-        return std::llrint(std::clamp(x / unit_, -most_steps_, most_steps_));
+        return std::llrint(std::clamp(x * a_unit, -most_steps_, most_steps_));
     };
     return {FixedRadiance::Lanes{steps(radiance.x), steps(radiance.y), steps(radiance.z), 1}};
 }

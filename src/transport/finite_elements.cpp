@@ -5,13 +5,14 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 namespace transillum {
 
 namespace {
 
 constexpr std::size_t grain = 16384;
-constexpr int least_blocks_for_error = 8;
+constexpr int least_blocks_for_error = 4;
 /// Weight that an earlier estimate keeps beside the first new fragments.
 constexpr double prior_weight = 0x1p-14;
 
@@ -66,6 +67,15 @@ void FiniteElementComponent::restore(std::span<const Spectrum> irradiance,
         sums_[p].received = SpectrumSum(irradiance[p]) * std::numbers::inv_pi;
     }
     glossy_.restore(glossy_values);
+}
+
+void FiniteElementComponent::set_sums(FiniteElementSums sums) {
+    sums_ = std::move(sums.patches);
+    glossy_.set_sums(std::move(sums.glossy));
+    escaped_ = sums.escaped;
+    entered_ = sums.entered;
+    weights_ = sums.weights;
+    blocks_ = sums.blocks;
 }
 
 void FiniteElementComponent::restart() {

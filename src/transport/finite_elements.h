@@ -31,6 +31,15 @@ struct PatchSums {
     double coverage_squared = 0.0;
 };
 
+/// All that the component has summed up, for the current average.
+struct FiniteElementSums {
+    std::vector<PatchSums> patches;
+    std::vector<GlossySum> glossy;  ///< one an element
+    SpectrumSum escaped{0.0}, entered{0.0};
+    double weights = 0.0;
+    int blocks = 0;
+};
+
 class FiniteElementComponent {
 public:
     /// Keeps references.
@@ -58,6 +67,11 @@ public:
 
     /// Sets the estimate, as if one fragment a patch and bin had brought it.
     void restore(std::span<const Spectrum> irradiance, std::span<const Spectrum> glossy_values);
+    [[nodiscard]] FiniteElementSums sums() const {
+        return {sums_, glossy_.sums(), escaped_, entered_, weights_, blocks_};
+    }
+    /// Goes on from these.
+    void set_sums(FiniteElementSums sums);
 
     /// Takes a block of directions. \param weight of each of its directions in the average.
     /// \param effect told what every patch received, where given
@@ -78,8 +92,9 @@ public:
     [[nodiscard]] double coverage(std::uint32_t patch) const { return sums_[patch].coverage; }
     void scale_incoming(std::uint32_t patch, const SpectrumSum& factor);
     void set_incoming(std::uint32_t patch, const SpectrumSum& incoming);
-    /// Squared standard error of `incoming`, from the spread of the blocks; NaN for fewer than 8
-    /// blocks.
+    /// Since the average was begun.
+    [[nodiscard]] int blocks() const { return blocks_; }
+    /// Squared standard error of `incoming`, from the spread of the blocks; NaN for fewer than 4.
     [[nodiscard]] SpectrumSum incoming_variance(std::uint32_t patch) const;
 
     /// Mean radiance that a patch reflects of `incoming`, weighted with the cosine.

@@ -18,6 +18,10 @@
 
 namespace transillum {
 
+/// Red, green, blue and coverage. Float: a thousand positive terms lose some 1e-6 of their sum, far
+/// less than their statistical error.
+using GlossySum = float __attribute__((vector_size(16)));
+
 class GlossyElements {
 public:
     /// Keeps references.
@@ -57,6 +61,8 @@ public:
 
     // As FiniteElementComponent's.
     void restore(std::span<const Spectrum> values);
+    [[nodiscard]] const std::vector<GlossySum>& sums() const { return sums_; }
+    void set_sums(std::vector<GlossySum> sums) { sums_ = std::move(sums); }
     void restart(float prior_weight);
     void recall();
     void forget();
@@ -65,9 +71,7 @@ public:
     [[nodiscard]] std::vector<Spectrum> values(const std::vector<Spectrum>& fallback) const;
 
 private:
-    /// Red, green, blue and coverage. Float: a thousand positive terms lose some 1e-6 of their sum,
-    /// far less than their statistical error.
-    using Sum = float __attribute__((vector_size(16)));
+    using Sum = GlossySum;
     /// Leaves of one side that one thread handles at once.
     struct Chunk {
         std::uint32_t side, begin, end;

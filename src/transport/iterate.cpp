@@ -14,6 +14,7 @@
 #include "transport/energy_balance.h"
 #include "transport/exchange.h"
 #include "transport/finite_elements.h"
+#include "transport/iteration_sums.h"
 #include "transport/relative_error.h"
 #include "transport/residual_effect.h"
 
@@ -65,7 +66,8 @@ public:
           exchange_(patches.leaf_count, clusters_, workers),
           component_(mesh, patches, sources, workers),
           environment_(sources.environment),
-          is_glossy_(!sources.glossy.empty()) {
+          sides_(sources.glossy.sides) {
+        if (options.start) go_on_from(*options.start, sources.glossy);
         leaf_area_.reserve(patches.leaf_count);
         for (std::uint32_t leaf = 0; leaf < patches.leaf_count; ++leaf)
             leaf_area_.push_back(area_of_leaf(mesh, patches, leaf));
@@ -94,10 +96,10 @@ private:
         if (environment_.shines())
             exchange_.set_environment(environment_.radiance(-bundle.frame[2]),
                                       environment_.radiance(bundle.frame[2]));
-        if (is_glossy_) component_.send_along(exchange_, bundle);
+        if (!sides_.empty()) component_.send_along(exchange_, bundle);
         transfer_.transfer(exchange_, component_, bundle);
         if (effect_) effect_->add(*transfer_.residual(), workers_);
-        if (is_glossy_) component_.receive_along(exchange_, bundle, weight);
+        if (!sides_.empty()) component_.receive_along(exchange_, bundle, weight);
     }
 
     /// Weights in proportion to a direction's number: step 2/(m + 1). The paper's: 1/m.
@@ -133,9 +135,23 @@ private:
         return glm::length(high - low);
     }
 
+    void go_on_from(const IterationSums& sums, const GlossySides& glossy) {
+        component_.set_sums(inherited(sums, patches_, glossy, options_.pixel_size));
+        const double scale = std::pow(sums.pixel_size / options_.pixel_size, 2.0);
+        if (sums.between_clusters.count == between_clusters_.count)
+            between_clusters_ = sums.between_clusters;
+        for (Received& r : between_clusters_.entries) {
+            r.radiance *= scale;
+            r.coverage *= scale;
+        }
+        done_ = sums.directions;
+    }
+
     void begin_block() {
         const std::uint64_t first = options_.averaging == Averaging::paper ? 0 : first_carried;
-        if (options_.monte_carlo != MonteCarlo::off && done_ == first) begin_carrying();
+        if (options_.monte_carlo != representation_ && representation_ == MonteCarlo::off &&
+            done_ >= first)
+            begin_carrying();
         if (!balances_at(done_) || done_ > last_restart) return;
         component_.restart();
         earlier_between_clusters_ = std::move(between_clusters_);
@@ -149,6 +165,7 @@ private:
                                   ? MonteCarlo::subpatch
                                   : MonteCarlo::wavefront;
             effect_.emplace(patches_.leaf_count);
+            effect_begin_ = done_;
         }
         transfer_.carry(representation_, component_);
     }
@@ -184,8 +201,8 @@ private:
         if (done_ >= 2 * last_restart) forget();
         if (done_ > last_restart)
             relative_error_ = estimate_relative_error(component_, leaf_area_, workers_);
-        if (effect_ && done_ >= 3 * first_carried / 2) effect_->begin_second_half();
-        if (effect_ && done_ >= 2 * first_carried) decide_on_carrying();
+        if (effect_ && done_ >= effect_begin_ + first_carried / 2) effect_->begin_second_half();
+        if (effect_ && done_ >= effect_begin_ + first_carried) decide_on_carrying();
     }
 
     bool balances_at(std::uint64_t done) const {
@@ -247,6 +264,10 @@ private:
         result.entered = component_.entered() * (2.0 * std::numbers::pi * pixel_area);
         result.glossy_elements = component_.glossy_values();
         add_residual_to(result);
+        if (options_.keep_sums)
+            result.sums = std::make_shared<IterationSums>(
+                IterationSums{patches_, sides_, transfer_.pixel_size(), done_, component_.sums(),
+                              std::move(between_clusters_)});
         return result;
     }
 
@@ -276,10 +297,11 @@ private:
     Exchange exchange_;
     FiniteElementComponent component_;
     const Environment& environment_;
-    bool is_glossy_;
+    const std::vector<GlossySide>& sides_;
     std::vector<double> leaf_area_;
     MonteCarlo representation_ = MonteCarlo::off;
     std::optional<ResidualEffect> effect_;  ///< while it is being measured
+    std::uint64_t effect_begin_ = 0;
     double residual_effect_ = std::numeric_limits<double>::quiet_NaN();
     std::uint64_t done_ = 0;
     double relative_error_ = std::numeric_limits<double>::quiet_NaN();

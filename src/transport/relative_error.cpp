@@ -8,6 +8,9 @@ namespace transillum {
 
 double estimate_relative_error(const FiniteElementComponent& component,
                                std::span<const double> leaf_area, const Workers& workers) {
+    // Fewer might seem to agree by chance.
+    constexpr int least_blocks = 8;
+    if (component.blocks() < least_blocks) return std::numeric_limits<double>::quiet_NaN();
     struct Sums {
         double variance = 0.0, mean = 0.0, seen = 0.0, unseen = 0.0;
     };

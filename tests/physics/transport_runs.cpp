@@ -55,6 +55,7 @@ void iterate_in(TransportRun& run, const RunOptions& options) {
     iteration.pixel_size = pixel_size_for(run.surface, options.resolution);
     iteration.seed = options.seed;
     iteration.averaging = options.averaging;
+    iteration.monte_carlo = options.monte_carlo;
     run.result =
         iterate(run.surface, run.patches, run.sources, iteration, Workers(options.threads), silent);
 }

@@ -18,6 +18,7 @@ struct RunOptions {
     std::uint64_t seed = 1;
     int threads = 2;
     Averaging averaging = Averaging::balanced;
+    MonteCarlo monte_carlo = MonteCarlo::off;
 };
 
 /// A surface with what the iteration made of it. Emission all travels by iteration.

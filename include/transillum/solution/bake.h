@@ -16,8 +16,9 @@
 namespace transillum {
 
 /// Refinement in phases (paper §3.2): every phase finds what the children of all leaves would
-/// receive, from twice as many directions as the one before, and splits the leaves that are too
-/// coarse.
+/// receive, in bins one level deeper, from twice as many directions as the one before (whose sums
+/// it inherits), and splits the leaves and bins that are too coarse. After the last, as many
+/// directions again follow at least.
 struct RefinementOptions {
     int phases = 0;                ///< most; 0: patches stay as they are subdivided
     double tolerance = 0.1;        ///< see SplitOptions

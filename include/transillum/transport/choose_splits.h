@@ -29,6 +29,10 @@ struct SplitChoice {
     bool limited = false;  ///< more leaves were wanted than allowed
 };
 
+/// Area-weighted mean luminance over all patches that shine at all: what tolerances refer to.
+[[nodiscard]] double mean_luminance(const SurfaceMesh& mesh, const PatchHierarchy& patches,
+                                    std::span<const Spectrum> radiance);
+
 /// \param patches the leaves in question; \param children every one of them split
 /// \param radiance, error mean over each child patch of the finite elements, and its standard error
 /// [W sr^-1 m^-2]

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <vector>
 
 namespace transillum {
@@ -30,6 +31,9 @@ enum class MonteCarlo {
     wavefront  ///< in the last transillumination buffer (§3.1.1)
 };
 
+/// What an iteration has summed up, for another to go on from.
+struct IterationSums;
+
 struct IterationOptions {
     std::uint64_t iterations = 1024;  ///< most directions, each transferred both ways
     double target_error = 0.0;        ///< stop when the estimated relative error is below; 0: never
@@ -39,6 +43,10 @@ struct IterationOptions {
     std::uint64_t seed = 1;
     Averaging averaging = Averaging::balanced;
     MonteCarlo monte_carlo = MonteCarlo::off;
+    /// Of an earlier run over the same roots, whose patches and bins may have been split since:
+    /// children inherit its sums (paper §3.2), and its directions count. Null: from the beginning.
+    std::shared_ptr<const IterationSums> start;
+    bool keep_sums = false;
 };
 
 /// Light of the first shot that arrives at a patch from about one direction.
@@ -82,6 +90,8 @@ struct TransportResult {
     SpectrumSum escaped{0.0};     ///< flux that left the scene [radiance * sr * square scene units]
     SpectrumSum entered{0.0};     ///< flux that came in from the environment, likewise
     std::uint64_t fragments = 0;  ///< exchanged, over all directions
+
+    std::shared_ptr<const IterationSums> sums;  ///< where they were to be kept
 
     /// Of the Monte-Carlo component: how it was represented, for how many directions it was
     /// carried, and how much of the mean of what patches receive came with it, as far as that was
