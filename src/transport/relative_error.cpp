@@ -8,9 +8,6 @@ namespace transillum {
 
 double estimate_relative_error(const FiniteElementComponent& component,
                                std::span<const double> leaf_area, const Workers& workers) {
-    // Fewer might seem to agree by chance.
-    constexpr int least_blocks = 8;
-    if (component.blocks() < least_blocks) return std::numeric_limits<double>::quiet_NaN();
     struct Sums {
         double variance = 0.0, mean = 0.0, seen = 0.0, unseen = 0.0;
     };
@@ -39,6 +36,9 @@ double estimate_relative_error(const FiniteElementComponent& component,
     }
     if (all.seen == 0.0) return std::numeric_limits<double>::quiet_NaN();
     if (all.mean == 0.0) return 0.0;
+    // Fewer might seem to agree by chance.
+    constexpr int least_blocks = 8;
+    if (component.blocks() < least_blocks) return std::numeric_limits<double>::quiet_NaN();
     // Of a patch that no direction has met nothing is known: an error as large as the mean.
     const double mean = all.mean / all.seen;
     return std::sqrt((all.variance + all.unseen * mean * mean) / (all.seen + all.unseen)) / mean;

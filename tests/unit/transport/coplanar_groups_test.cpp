@@ -1,8 +1,8 @@
 #include "transport/coplanar_groups.h"
 #include "support/scene_builder.h"
 
-#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
+#include <glm/geometric.hpp>
 
 #include <set>
 
