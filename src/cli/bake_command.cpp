@@ -149,9 +149,10 @@ void add_options(CLI::App& command, BakeArguments& a) {
                "what patches can't hold is carried from bundle to bundle on their quarters, or in "
                "the whole buffer; auto: where it changes more than the error to be expected")
         ->group(method);
-    add_choice(command, "--averaging", iteration.averaging,
-               {{"balanced", Averaging::balanced}, {"paper", Averaging::paper}},
-               "how iterations are averaged; paper: 1/m, for comparison")
+    add_choice(
+        command, "--averaging", iteration.averaging,
+        {{"balanced", Averaging::balanced}, {"paper", Averaging::paper}, {"none", Averaging::none}},
+        "how iterations are averaged; paper: 1/m, for comparison")
         ->group(method);
     command.add_option("--seed", a.bake.seed, "of the directions and light samples")
         ->capture_default_str()

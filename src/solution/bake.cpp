@@ -30,6 +30,7 @@ void note_decisions(const Solution& s, Monitor& monitor) {
 
 void record_settings(const BakeOptions& o, Solution& s) {
     const char* const shots[] = {"auto", "off", "hemicube"};
+    const char* const averagings[] = {"balanced", "paper", "none"};
     const char* const residuals[] = {"auto", "off", "subpatch", "wavefront"};
     s.settings = {
         {"patch-size", fmt::format("{}", o.subdivision.patch_size)},
@@ -44,7 +45,7 @@ void record_settings(const BakeOptions& o, Solution& s) {
         {"target-error", fmt::format("{}", o.iteration.target_error)},
         {"time", fmt::format("{}", o.iteration.seconds)},
         {"monte-carlo", residuals[static_cast<int>(o.iteration.monte_carlo)]},
-        {"averaging", o.iteration.averaging == Averaging::paper ? "paper" : "balanced"},
+        {"averaging", averagings[static_cast<int>(o.iteration.averaging)]},
         {"brdf-bins", o.bins.level < 0 ? "auto" : fmt::format("{}", bin_count(o.bins.level))},
         {"seed", fmt::format("{}", o.seed)}};
 }

@@ -35,6 +35,11 @@ void BundleTransfer::carry(MonteCarlo representation, const FiniteElementCompone
     order_.shuffle();
 }
 
+void BundleTransfer::carry_all() {
+    residual_->reflect_all();
+    headroom_ = most_headroom;
+}
+
 void BundleTransfer::carry_no_more() {
     norms_.resize(patches_.patch_count());
     for (std::uint32_t slot = 0; slot < norms_.size(); ++slot)

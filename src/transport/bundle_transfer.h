@@ -24,6 +24,8 @@ public:
     /// yet. \pre not automatic
     void carry(MonteCarlo representation, const FiniteElementComponent& elements);
     void carry_no_more();
+    /// Carries all light that way, again and again. \pre the elements leave reflection to it
+    void carry_all();
     /// Null unless carried.
     [[nodiscard]] const MonteCarloComponent* residual() const { return residual_.get(); }
     /// Directions for which it was.

@@ -178,7 +178,8 @@ void FiniteElementComponent::send(Exchange& exchange, float brightest_environmen
                                   double most_fragments, float headroom) {
     workers_.for_ranges(sums_.size(), grain, [&](std::size_t begin, std::size_t end, int) {
         for (std::size_t i = begin; i < end; ++i) {
-            const SpectrumSum in = ratio(static_cast<std::uint32_t>(i));
+            const SpectrumSum in =
+                feeds_back_ ? ratio(static_cast<std::uint32_t>(i)) : SpectrumSum(0.0);
             ratio_[i] = Spectrum(in);
             radiance_[i] = sources_.emission[i] + sources_.direct[i] +
                            Spectrum(SpectrumSum(sources_.albedo[i]) * in);
@@ -188,6 +189,11 @@ void FiniteElementComponent::send(Exchange& exchange, float brightest_environmen
     for (const Spectrum& r : radiance_) largest = std::max(largest, max_channel(r));
     if (!glossy_.empty()) largest = std::max(largest, glossy_.update_incoming(ratio_));
     exchange.set_radiance(radiance_, headroom * largest, most_fragments);
+}
+
+void FiniteElementComponent::leave_reflection_to_residual() {
+    feeds_back_ = false;
+    glossy_.leave_reflection_to_residual();
 }
 
 void FiniteElementComponent::send_along(Exchange& exchange, const Bundle& bundle) const {
@@ -208,8 +214,9 @@ void FiniteElementComponent::reflect_residual(const Bundle& last, const Bundle& 
                 for (const std::uint32_t patch : {leaf, leaf + patches_.leaf_count}) {
                     const std::uint32_t slot = slot_of_patch(patch, patches_.leaf_count);
                     const Spectrum gain = twice_cosine * sources_.albedo[patch];
+                    const Spectrum projected = feeds_back_ ? gain : Spectrum(0.0f);
                     reflections[slot] = {lanes_of(gain),
-                                         lanes_of(gain * residual.arrived(slot).radiance)};
+                                         lanes_of(projected * residual.arrived(slot).radiance)};
                 }
         }
     });

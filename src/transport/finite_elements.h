@@ -51,6 +51,9 @@ public:
     /// \param headroom bound of what a point sends over what any patch does
     void send(Exchange& exchange, float brightest_environment, double most_fragments,
               float headroom = 1.0f);
+    /// From now on what is sent is emission and first reflection; all that is reflected beside it
+    /// is left to the residual.
+    void leave_reflection_to_residual();
     /// The part of it that differs from bundle to bundle.
     void send_along(Exchange& exchange, const Bundle& bundle) const;
     /// Takes what arrives at sides whose BRDF weighs bundles unlike. \param weight of the direction
@@ -129,6 +132,7 @@ private:
     GlossyElements glossy_;
     std::vector<PatchSums> sums_;
     std::vector<Spectrum> ratio_, radiance_;  ///< when last sent
+    bool feeds_back_ = true;
     SpectrumSum escaped_{0.0}, entered_{0.0};
     double weights_ = 0.0;
     int blocks_ = 0;

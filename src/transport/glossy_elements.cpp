@@ -124,7 +124,7 @@ float GlossyElements::update_incoming(const std::vector<Spectrum>& fallback) {
         for (int bin = 0; bin < s.bins(); ++bin)
             for (std::uint32_t p = s.first_patch + c.begin; p < s.first_patch + c.end; ++p) {
                 const std::uint64_t e = s.element(bin, p);
-                const Spectrum x = ratio(e, fallback[p]);
+                const Spectrum x = feeds_back_ ? ratio(e, fallback[p]) : Spectrum(0.0f);
                 incoming_[e] = Sum{x.x, x.y, x.z, 0.0f};
                 most = std::max(most, max_channel(sources_.emission[p]) + max_channel(x));
             }
@@ -193,8 +193,11 @@ void GlossyElements::reflect_residual(const Bundle& last, const Bundle& next,
                               diffuse_coupling(f, out.z) / mean_diffuse_coupling(f);
         Spectrum lobe(0.0f), projected_lobe(0.0f);
         float projected_diffuse = diffuse;
-        // Lobes that bins can't hold would carry little but noise.
-        if (!is_sharper_than_bins(f)) {
+        if (!feeds_back_) {
+            lobe = twice_cosine * std::numbers::pi_v<float> * evaluate_lobe(f, in, out);
+            projected_diffuse = 0.0f;
+        } else if (!is_sharper_than_bins(f)) {
+            // Lobes that bins can't hold would carry little but noise.
             const ProjectedBrdf& projection = projected(s);
             const auto bins = static_cast<std::size_t>(s.bins());
             const auto bin = static_cast<std::size_t>(bin_at(square_of_direction(in), s.bin_level));

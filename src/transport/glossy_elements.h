@@ -42,7 +42,8 @@ public:
     /// What a patch has received since this was last called.
     [[nodiscard]] Received take(std::uint32_t patch);
 
-    /// FiniteElementComponent's, of glossy sides.
+    // FiniteElementComponent's, of glossy sides.
+    void leave_reflection_to_residual() { feeds_back_ = false; }
     void reflect_residual(const Bundle& last, const Bundle& next,
                           const MonteCarloComponent& residual,
                           std::span<BundleReflection> reflections) const;
@@ -110,6 +111,7 @@ private:
     std::vector<Received> block_;                    ///< one a glossy patch
     std::vector<std::uint32_t> first_glossy_patch_;  ///< one a side, into block_
     std::vector<Spectrum> mean_emission_;            ///< one a side, or empty
+    bool feeds_back_ = true;
     float largest_source_ = 0.0f;  ///< beside emission and what the elements reflect
 };
 

@@ -148,19 +148,25 @@ private:
     }
 
     void begin_block() {
-        const std::uint64_t first = options_.averaging == Averaging::paper ? 0 : first_carried;
-        if (options_.monte_carlo != representation_ && representation_ == MonteCarlo::off &&
-            done_ >= first)
-            begin_carrying();
+        if (representation_ == MonteCarlo::off && carries_from() <= done_) begin_carrying();
         if (!balances_at(done_) || done_ > last_restart) return;
         component_.restart();
         earlier_between_clusters_ = std::move(between_clusters_);
         between_clusters_ = ClusterTransfer(clusters_.count);
     }
 
+    [[nodiscard]] std::uint64_t carries_from() const {
+        if (options_.averaging == Averaging::none) return 0;
+        if (options_.monte_carlo == MonteCarlo::off)
+            return std::numeric_limits<std::uint64_t>::max();
+        return options_.averaging == Averaging::paper ? 0 : first_carried;
+    }
+
     void begin_carrying() {
+        const bool all = options_.averaging == Averaging::none;
         representation_ = options_.monte_carlo;
-        if (options_.monte_carlo == MonteCarlo::automatic) {
+        if (all && representation_ != MonteCarlo::wavefront) representation_ = MonteCarlo::subpatch;
+        if (representation_ == MonteCarlo::automatic) {
             representation_ = patches_.leaf_count < most_leaves_for_subpatch
                                   ? MonteCarlo::subpatch
                                   : MonteCarlo::wavefront;
@@ -168,6 +174,10 @@ private:
             effect_begin_ = done_;
         }
         transfer_.carry(representation_, component_);
+        if (all) {
+            component_.leave_reflection_to_residual();
+            transfer_.carry_all();
+        }
     }
 
     /// What changes less than the error that is to be expected is carried no more.

@@ -51,6 +51,10 @@ public:
     /// The leaves that the lists of the transillumination buffer must hold.
     [[nodiscard]] virtual const PatchHierarchy& cells() const = 0;
 
+    /// From now on residuals, too, are reflected, again and again: where there is nothing beside
+    /// them.
+    void reflect_all() { reflects_all_ = true; }
+
     /// Sets how what arrived along the last bundle is reflected along the next. The first time,
     /// nothing has arrived.
     virtual void reflect(std::span<const BundleReflection> reflections,
@@ -77,6 +81,7 @@ protected:
     explicit MonteCarloComponent(std::uint32_t leaf_count)
         : arrived_(2 * std::size_t{leaf_count}), norms_(2 * std::size_t{leaf_count}) {}
 
+    bool reflects_all_ = false;
     std::vector<Arrived> arrived_;
     std::vector<ResidualNorms> norms_;
     std::uint64_t directions_ = 0;

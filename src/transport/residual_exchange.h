@@ -12,10 +12,11 @@ struct ResidualPoint {
 };
 
 /// \param layer point(fragment, index within the tile, column, row) -> ResidualPoint;
-/// arrive_at_lower(point, index, radiance), arrive_at_upper likewise: of the finite elements
+/// arrive_at_lower(point, index, radiance), arrive_at_upper likewise
+/// \param reflects_all they are told all that arrives; else, what the finite elements sent
 template <class Layer>
 void exchange_with_residual(const TileLists& tile, const ExchangeTables& tables, int cluster_row,
-                            ExchangeTally& tally, Layer& layer) {
+                            bool reflects_all, ExchangeTally& tally, Layer& layer) {
     const std::uint32_t outside = 2 * tables.leaf_count;
     const std::uint32_t n = tables.cluster_count + 1;
     FixedRadiance escaped, entered;
@@ -58,8 +59,8 @@ void exchange_with_residual(const TileLists& tile, const ExchangeTables& tables,
                 const FixedRadiance all_backwards = sum(backwards, ahead.from_lower);
                 tally.received[ahead.lower] += all_forwards;
                 tally.received[behind.upper] += all_backwards;
-                layer.arrive_at_lower(ahead, i, forwards);
-                layer.arrive_at_upper(behind, i - 1, backwards);
+                layer.arrive_at_lower(ahead, i, reflects_all ? all_forwards : forwards);
+                layer.arrive_at_upper(behind, i - 1, reflects_all ? all_backwards : backwards);
                 if (sampled) tell_clusters(ahead.lower, all_backwards, behind.upper, all_forwards);
                 behind = ahead;
             }

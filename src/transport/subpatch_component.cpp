@@ -71,7 +71,7 @@ public:
             }
         } layer{split_.parent.data(), residual_.data(), received_[worker].data(),
                 tile.fragments.data()};
-        exchange_with_residual(tile, tables, cluster_row, tally, layer);
+        exchange_with_residual(tile, tables, cluster_row, reflects_all_, tally, layer);
     }
 
     void end(const TransilluminationBuffer&, const ExchangeTables& tables) override {

@@ -281,7 +281,7 @@ void WavefrontComponent::exchange_tile(const TileLists& tile, const Transillumin
     made.first.assign(tile.first.begin(), tile.first.begin() + tile.width * tile.height + 1);
     made.points.resize(tile.fragments.size());
     Layer layer(*this, buffer.window(), tables, made, tallies_[worker]);
-    exchange_with_residual(tile, tables, cluster_row, tally, layer);
+    exchange_with_residual(tile, tables, cluster_row, reflects_all_, tally, layer);
 }
 
 }  // namespace

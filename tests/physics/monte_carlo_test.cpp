@@ -184,6 +184,19 @@ TEST(AutomaticMonteCarlo, IsCarriedOnlyWhereItIsWorthIt) {
     EXPECT_GT(coarse.result.residual_effect, 0.01);
 }
 
+// Plain stochastic iteration: all light goes from bundle to bundle. Validation A1, and A3, which it
+// nears more slowly: its error is all noise.
+TEST_P(Carried, AloneIsPlainIteration) {
+    const RunOptions plain{.directions = 4096,
+                           .leaves = 100,
+                           .resolution = 100,
+                           .averaging = Averaging::none,
+                           .monte_carlo = GetParam()};
+    const TransportRun cube = run_transport(cube_scene(0.5f, 1.0f, 0.0f), plain);
+    EXPECT_EQ(cube.result.carried, 4096u);
+    EXPECT_NEAR(cube.mean_incoming(all_fronts) * 6.0 * 0.5, 1.0, 0.05);
+}
+
 TEST(MonteCarloOff, LeavesNoNorms) {
     const TransportRun run = run_transport(cube_scene(0.6f, 1.0f, 0.0f), {});
     EXPECT_EQ(run.result.carried, 0u);

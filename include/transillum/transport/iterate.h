@@ -19,7 +19,11 @@ namespace transillum {
 
 enum class Averaging {
     balanced,  ///< growing weights, feedback refreshed in blocks, energy balance at powers of two
-    paper      ///< eq. (5): the 1/m average is fed back after every direction
+    paper,     ///< eq. (5): the 1/m average is fed back after every direction
+    /// Nothing is fed back but what the last bundle brought, all of it, patch by patch: stochastic
+    /// iteration with ray bundles and no finite elements (paper, reference 22), to compare with.
+    /// The result is the average.
+    none
 };
 
 /// Representation of the Monte-Carlo component (paper §3.1), which is carried from bundle to
