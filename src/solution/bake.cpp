@@ -91,9 +91,8 @@ Decision refine(Solution& s, const BakeOptions& options, const Baker& baker, Mon
 
 }  // namespace
 
-Solution bake(const Scene& scene, const BakeOptions& options, const Workers& workers,
-              Monitor& monitor, RunRecord* run) {
-    StopWatch watch(run);
+Solution lay_out_solution(const Scene& scene, const BakeOptions& options, const Baker& baker,
+                          StopWatch& watch, Monitor& monitor, std::vector<Decision>& refined) {
     Solution s;
     s.seed = options.seed;
     s.cameras = scene.cameras;
@@ -104,10 +103,16 @@ Solution bake(const Scene& scene, const BakeOptions& options, const Workers& wor
     s.patches = subdivide_uniformly(s.surface, options.subdivision);
     s.scene_hash = hash_scene(s.surface, s.lighting);
     watch.lap("geometry");
+    if (options.refinement.phases > 0) refined.push_back(refine(s, options, baker, monitor));
+    return s;
+}
 
+Solution bake(const Scene& scene, const BakeOptions& options, const Workers& workers,
+              Monitor& monitor, RunRecord* run) {
+    StopWatch watch(run);
     const Baker baker(options, workers, monitor, watch);
     std::vector<Decision> refined;
-    if (options.refinement.phases > 0) refined.push_back(refine(s, options, baker, monitor));
+    Solution s = lay_out_solution(scene, options, baker, watch, monitor, refined);
     baker.run(s, options.iteration.iterations);
     s.decisions.insert(s.decisions.begin(), refined.begin(), refined.end());
     warn_of_sharp_lobes(s, monitor);

@@ -70,6 +70,11 @@ void decide_bins(const Solution& s, const BinOptions& options, std::vector<Decis
 }  // namespace
 
 void Baker::run(Solution& s, std::uint64_t iterations) const {
+    prepare(s);
+    transport(s, iterations);
+}
+
+void Baker::prepare(Solution& s) const {
     s.decisions.clear();
     s.glossy =
         lay_out_glossy_sides(s.surface, s.patches, choose_bin_levels(s.surface, options_.bins));
@@ -77,6 +82,9 @@ void Baker::run(Solution& s, std::uint64_t iterations) const {
     average_textures(s);
     shoot(s);
     watch_.lap("first shot");
+}
+
+void Baker::transport(Solution& s, std::uint64_t iterations) const {
     iterate_on(s, iterations);
     watch_.lap("transport");
 }

@@ -16,6 +16,10 @@ public:
     /// Of a solution that has its surface, patches and lighting. Its decisions are begun anew.
     void run(Solution& solution, std::uint64_t iterations) const;
 
+    // Its two halves. The second may be repeated with other colours.
+    void prepare(Solution& solution) const;
+    void transport(Solution& solution, std::uint64_t iterations) const;
+
 private:
     void shoot(Solution& solution) const;
     void iterate_on(Solution& solution, std::uint64_t iterations) const;
@@ -25,5 +29,11 @@ private:
     Monitor& monitor_;
     StopWatch& watch_;
 };
+
+/// What comes before the Baker's last run: a solution with surface and patches, refined where
+/// options say so; of that, `refined` tells.
+[[nodiscard]] Solution lay_out_solution(const Scene& scene, const BakeOptions& options,
+                                        const Baker& baker, StopWatch& watch, Monitor& monitor,
+                                        std::vector<Decision>& refined);
 
 }  // namespace transillum
