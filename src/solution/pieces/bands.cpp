@@ -5,6 +5,9 @@
 
 #include <transillum/base/error.h>
 
+#include <vtkNew.h>
+#include <vtkPoints.h>
+
 #include <array>
 #include <cmath>
 
@@ -60,6 +63,7 @@ std::string band_piece_name(int group) {
 PolyData band_piece(const SpectralSolution& spectral, const Bands& bands, int group) {
     const BandGroup& own = spectral.groups[static_cast<std::size_t>(group)];
     auto piece = PolyData::New();
+    piece->SetPoints(vtkNew<vtkPoints>());  // VTK cannot read a file without
     vtkFieldData& fields = *piece->GetFieldData();
     add_value(fields, "BandCount", std::int32_t{bands.count()});
     add_value(fields, "Wavelengths", wavelengths_of(bands, group));
