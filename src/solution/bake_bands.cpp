@@ -120,7 +120,8 @@ SpectralSolution bake_bands(const Scene& scene, const SpectralOptions& spectral,
     of_group.iteration.seconds /= bands.groups();
 
     std::vector<Decision> decisions;
-    const Baker baker(of_group, workers, monitor, watch);
+    Baker baker(of_group, workers, monitor, watch);
+    baker.band_groups = static_cast<std::uint64_t>(bands.groups());
     Solution s =
         lay_out_solution(with_colours(scene, rgb), options, baker, watch, monitor, decisions);
     baker.prepare(s);

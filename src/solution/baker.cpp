@@ -94,7 +94,7 @@ void Baker::shoot(Solution& s) const {
     light.seed = options_.seed;
     const Luminaires luminaires = sample_luminaires(s.surface, light, s.lighting.lights);
     decide_first_shot(luminaires, light.first_shot, s.decisions);
-    require_memory(estimate_memory(s, luminaires.samples.size(), workers_.count()),
+    require_memory(estimate_memory(s, luminaires.samples.size(), workers_.count(), band_groups),
                    options_.memory);
     s.direct = shoot_direct_light(s.surface, s.patches, luminaires, options_.hemicube_resolution,
                                   workers_, monitor_);

@@ -20,6 +20,8 @@ public:
     void prepare(Solution& solution) const;
     void transport(Solution& solution, std::uint64_t iterations) const;
 
+    std::uint64_t band_groups = 0;  ///< whose results are to be kept, for the estimate of memory
+
 private:
     void shoot(Solution& solution) const;
     void iterate_on(Solution& solution, std::uint64_t iterations) const;

@@ -100,7 +100,8 @@ TEST(RenderBands, OfAPathAreThoseOfASinglePicture) {
         picture(rgb).pixels);
 }
 
-// Against paths of light in the same bands: mean colours, both sides of which are noisy.
+// Against paths of light in the same bands: mean colours, of which the paths' noise is below 1 %,
+// and the patches' size hides some of the light next to edges.
 TEST(RenderBands, AgreeWithPathTracing) {
     const Scene scene = room();
     const auto [flat, bumpy] = grey_metamers(Bands(12));

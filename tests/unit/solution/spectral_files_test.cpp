@@ -11,6 +11,9 @@
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkNew.h>
+#include <vtkXMLMultiBlockDataReader.h>
 
 #include <fstream>
 #include <functional>
@@ -120,6 +123,16 @@ TEST_F(SpectralFiles, HoldEveryGroup) {
 
 TEST_F(SpectralFiles, AreAnOrdinarySolutionToOthers) {
     expect_equal(spectral_.rgb, load_solution(path_));
+}
+
+TEST_F(SpectralFiles, AreNoBlocksToViewers) {
+    testing::internal::CaptureStderr();
+    vtkNew<vtkXMLMultiBlockDataReader> reader;
+    reader->SetFileName(path_.c_str());
+    reader->Update();
+    EXPECT_EQ(vtkMultiBlockDataSet::SafeDownCast(reader->GetOutput())->GetNumberOfBlocks(), 5u)
+        << "radiance, incoming, lights, environment, surface";
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
 TEST_F(SpectralFiles, ShowRadianceOfTheGroups) {
