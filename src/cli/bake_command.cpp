@@ -1,9 +1,11 @@
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/scene_options.h"
+#include "cli/spectral_options.h"
 
 #include <transillum/base/error.h>
 #include <transillum/solution/bake.h>
+#include <transillum/solution/bake_bands.h>
 #include <transillum/solution/save_solution.h>
 
 #include <fmt/format.h>
@@ -25,6 +27,7 @@ struct BakeArguments {
     SceneOptions scene;
     std::string output;
     BakeOptions bake;
+    SpectralArguments spectral;
     double memory = 0.0;
     bool keep_phases = false;
     int threads = 0;
@@ -32,6 +35,7 @@ struct BakeArguments {
 
 void add_options(CLI::App& command, BakeArguments& a) {
     add_scene_options(command, a.scene);
+    add_spectral_options(command, a.spectral);
     command.add_option("-o,--output", a.output, "solution to write, NAME.vtm (and a folder NAME)")
         ->required()
         ->group("Output");
@@ -225,7 +229,13 @@ int run(BakeArguments& a, const Common& common) {
     }
     RunRecord record;
     record.command_line = common.command_line;
-    Solution solution = bake(scene, a.bake, workers, console, &record);
+    const auto spectral = make_spectral_options(a.spectral, a.scene.max_albedo, scene);
+    SpectralSolution baked;
+    if (spectral)
+        baked = bake_bands(scene, *spectral, a.bake, workers, console, &record);
+    else
+        baked.rgb = bake(scene, a.bake, workers, console, &record);
+    Solution& solution = baked.rgb;
     solution.settings.emplace_back("max-albedo", fmt::format("{}", a.scene.max_albedo));
     const char* const sides[] = {"file", "one", "two"};
     solution.settings.emplace_back("sides", sides[static_cast<int>(a.scene.load.sides)]);
@@ -234,7 +244,10 @@ int run(BakeArguments& a, const Common& common) {
         console.warn(fmt::format(
             "{:.1f} % of the light met black backs: is the mesh wound inside out? (--sides two)",
             100.0 * luminance(lost) / luminance(solution.balance.emitted)));
-    save_solution(solution, record, a.output);
+    if (spectral)
+        save_spectral_solution(baked, record, a.output);
+    else
+        save_solution(solution, record, a.output);
     console.end_progress();
     print_summary(solution, a.output);
     return solution.interrupted ? ExitCode::interrupted : ExitCode::done;

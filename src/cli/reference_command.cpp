@@ -2,10 +2,10 @@
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/scene_options.h"
+#include "cli/spectral_options.h"
 
 #include <transillum/geometry/surface_mesh.h>
-#include <transillum/render/path_trace.h>
-#include <transillum/render/render_solution.h>
+#include <transillum/render/render_bands.h>
 
 #include <memory>
 
@@ -15,6 +15,7 @@ namespace {
 
 struct ReferenceArguments {
     SceneOptions scene;
+    SpectralArguments spectral;
     CameraOptions camera;
     ImageOptions image;
     PathTraceOptions path_trace;
@@ -30,8 +31,12 @@ int run(ReferenceArguments& a, const Common& common) {
     const Scene scene = read_scene(a.scene, console);
     const SurfaceMesh surface = build_surface(scene, {}, console);
     const Camera camera = make_camera(a.camera, scene.cameras, surface);
+    const Workers workers(a.threads);
+    const auto spectral = make_spectral_options(a.spectral, a.scene.max_albedo, scene);
     const Image image =
-        path_trace(surface, scene.lighting, camera, a.path_trace, Workers(a.threads), console);
+        spectral
+            ? path_trace_bands(surface, scene, *spectral, camera, a.path_trace, workers, console)
+            : path_trace(surface, scene.lighting, camera, a.path_trace, workers, console);
     write_images(image, a.image);
     return console.stop_requested() ? ExitCode::interrupted : ExitCode::done;
 }
@@ -43,6 +48,7 @@ void add_reference(CLI::App& program, const Common& common, int& exit_code) {
     CLI::App* command =
         program.add_subcommand("reference", "Path-trace a scene, to measure errors against");
     add_scene_options(*command, a->scene);
+    add_spectral_options(*command, a->spectral);
     add_camera_options(*command, a->camera);
     add_image_options(*command, a->image);
     command

@@ -4,7 +4,7 @@
 #include "cli/shading_options.h"
 
 #include <transillum/base/error.h>
-#include <transillum/render/render_solution.h>
+#include <transillum/render/render_bands.h>
 #include <transillum/solution/load_solution.h>
 
 #include <fmt/format.h>
@@ -26,10 +26,9 @@ int run(const RenderArguments& a, const Common& common) {
     Console console(common.quiet);
     require_writable(a.image);
     const RenderOptions render = make_render_options(a.shading, parse_size(a.camera.size));
-    const Solution solution = load_solution(a.solution);
-    const Camera camera = make_camera(a.camera, solution.cameras, solution.surface);
-    const Image image =
-        render_solution(solution, camera, render, Workers(a.shading.threads), console);
+    const SpectralSolution solution = load_spectral_solution(a.solution);
+    const Camera camera = make_camera(a.camera, solution.rgb.cameras, solution.rgb.surface);
+    const Image image = render_bands(solution, camera, render, Workers(a.shading.threads), console);
     if (console.stop_requested()) return ExitCode::interrupted;
     write_images(image, a.image);
     return ExitCode::done;

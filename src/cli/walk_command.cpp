@@ -7,6 +7,7 @@
 
 #include <transillum/base/error.h>
 #include <transillum/render/camera_path.h>
+#include <transillum/render/render_bands.h>
 #include <transillum/solution/load_solution.h>
 
 #include <fmt/format.h>
@@ -57,9 +58,8 @@ int run(const WalkArguments& a, const Common& common) {
     std::filesystem::create_directories(a.folder, failed);
     if (failed) throw IoError(a.folder, "cannot be made: " + failed.message());
     require_writable(a.folder + "/frame");
-    const Solution solution = load_solution(a.solution);
     const Workers workers(a.shading.threads);
-    const SolutionRenderer renderer(solution, render, workers, console);
+    const BandRenderer renderer(load_spectral_solution(a.solution), render, workers, console);
     FrameMonitor silent(console);
     ToneMapping tone{a.exposure, true};
     for (std::uint64_t i = 0; i < frames; ++i) {

@@ -159,6 +159,13 @@ Luminaires sample_luminaires(const SurfaceMesh& mesh, const LightSampleOptions& 
     return result;
 }
 
+void relight_samples(const SurfaceMesh& mesh, const std::vector<PunctualLight>& lights,
+                     std::vector<LightSample>& samples) {
+    for (LightSample& s : samples)
+        s.emitted = s.kind == LightSample::Kind::area ? emission_of(mesh, s.root)
+                                                      : lights[s.light].intensity;
+}
+
 std::uint64_t first_shot_bytes(std::size_t samples, std::uint64_t patches) {
     return samples * patches * (sizeof(float) + sizeof(float));
 }

@@ -54,13 +54,6 @@ void record_settings(const BakeOptions& o, Solution& s) {
 /// light from noise.
 constexpr std::uint64_t first_phase = 128;
 
-/// What the phases have come to.
-struct Refined {
-    std::vector<std::int8_t> bin_levels;
-    std::shared_ptr<const IterationSums> sums;  ///< null before the first
-    std::uint64_t directions = 0;
-};
-
 /// Bins of automatic levels are divided as the light asks for it, from one level above what the
 /// lobe alone would.
 std::vector<std::int8_t> first_bin_levels(const Solution& s, const BakeOptions& options) {
@@ -110,10 +103,9 @@ Decision refine(Solution& s, const BakeOptions& options, const Baker& baker, Mon
         const SplitPatches children = split_all_leaves(s.patches);
         trial.patches = children.patches;
         refined.directions = std::max(first_phase, 2 * refined.directions);
-        refined.sums = baker.run(
-            trial,
-            divides ? deeper_bins(refined.bin_levels, refined.directions) : refined.bin_levels,
-            refined.directions, refined.sums);
+        Refined tried = refined;
+        if (divides) tried.bin_levels = deeper_bins(refined.bin_levels, refined.directions);
+        refined.sums = baker.run(trial, tried, refined.directions);
         if (options.refinement.keep_phase) options.refinement.keep_phase(trial, phase);
         const SplitChoice choice =
             find_coarse_leaves(trial, s.patches, children, options.refinement, split);
@@ -132,10 +124,10 @@ Decision refine(Solution& s, const BakeOptions& options, const Baker& baker, Mon
 
 }  // namespace
 
-Solution bake(const Scene& scene, const BakeOptions& options, const Workers& workers,
-              Monitor& monitor, RunRecord* run) {
-    StopWatch watch(run);
-    Solution s;
+Layout lay_out_solution(const Scene& scene, const BakeOptions& options, const Baker& baker,
+                        StopWatch& watch, Monitor& monitor) {
+    Layout layout;
+    Solution& s = layout.solution;
     s.seed = options.seed;
     s.cameras = scene.cameras;
     s.lighting = scene.lighting;
@@ -145,20 +137,26 @@ Solution bake(const Scene& scene, const BakeOptions& options, const Workers& wor
     s.patches = subdivide_uniformly(s.surface, options.subdivision);
     s.scene_hash = hash_scene(s.surface, s.lighting);
     watch.lap("geometry");
-
-    const Baker baker(options, workers, monitor, watch);
-    Refined refined{first_bin_levels(s, options), {}, {}};
-    std::vector<Decision> decisions;
+    layout.refined.bin_levels = first_bin_levels(s, options);
     if (options.refinement.phases > 0)
-        decisions.push_back(refine(s, options, baker, monitor, refined));
+        layout.decisions.push_back(refine(s, options, baker, monitor, layout.refined));
+    return layout;
+}
+
+Solution bake(const Scene& scene, const BakeOptions& options, const Workers& workers,
+              Monitor& monitor, RunRecord* run) {
+    StopWatch watch(run);
+    const Baker baker(options, workers, monitor, watch);
+    Layout layout = lay_out_solution(scene, options, baker, watch, monitor);
+    Solution& s = layout.solution;
     // As many again as the phases took: what they inherited from larger patches must fade.
-    baker.run(s, refined.bin_levels, std::max(options.iteration.iterations, 2 * refined.directions),
-              refined.sums);
-    s.decisions.insert(s.decisions.begin(), decisions.begin(), decisions.end());
+    baker.run(s, layout.refined,
+              std::max(options.iteration.iterations, 2 * layout.refined.directions));
+    s.decisions.insert(s.decisions.begin(), layout.decisions.begin(), layout.decisions.end());
     warn_of_sharp_lobes(s, monitor);
     note_decisions(s, monitor);
     if (run) run->threads = workers.count();
-    return s;
+    return std::move(s);
 }
 
 }  // namespace transillum

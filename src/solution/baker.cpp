@@ -77,16 +77,23 @@ void decide_monte_carlo(const TransportResult& t, MonteCarlo choice,
 
 }  // namespace
 
-std::shared_ptr<const IterationSums> Baker::run(Solution& s,
-                                                std::span<const std::int8_t> bin_levels,
-                                                std::uint64_t iterations,
-                                                std::shared_ptr<const IterationSums> start) const {
+std::shared_ptr<const IterationSums> Baker::run(Solution& s, const Refined& refined,
+                                                std::uint64_t iterations) const {
+    prepare(s, refined.bin_levels);
+    return transport(s, iterations, refined.sums);
+}
+
+void Baker::prepare(Solution& s, std::span<const std::int8_t> bin_levels) const {
     s.decisions.clear();
     s.glossy = lay_out_glossy_sides(s.surface, s.patches, bin_levels);
     decide_bins(s, options_.bins, s.decisions);
     average_textures(s);
     shoot(s);
     watch_.lap("first shot");
+}
+
+std::shared_ptr<const IterationSums> Baker::transport(
+    Solution& s, std::uint64_t iterations, std::shared_ptr<const IterationSums> start) const {
     auto sums = iterate_on(s, iterations, std::move(start));
     watch_.lap("transport");
     return sums;
@@ -97,7 +104,7 @@ void Baker::shoot(Solution& s) const {
     light.seed = options_.seed;
     const Luminaires luminaires = sample_luminaires(s.surface, light, s.lighting.lights);
     decide_first_shot(luminaires, light.first_shot, s.decisions);
-    require_memory(estimate_memory(s, luminaires.samples.size(), workers_.count()),
+    require_memory(estimate_memory(s, luminaires.samples.size(), workers_.count(), band_groups),
                    options_.memory);
     s.direct = shoot_direct_light(s.surface, s.patches, luminaires, options_.hemicube_resolution,
                                   workers_, monitor_);

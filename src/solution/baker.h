@@ -10,6 +10,13 @@
 
 namespace transillum {
 
+/// What phases of refinement have come to, beside the patches.
+struct Refined {
+    std::vector<std::int8_t> bin_levels;        ///< one a root side
+    std::shared_ptr<const IterationSums> sums;  ///< null before the first
+    std::uint64_t directions = 0;
+};
+
 class Baker {
 public:
     /// Keeps references.
@@ -17,11 +24,18 @@ public:
         : options_(options), workers_(workers), monitor_(monitor), watch_(watch) {}
 
     /// Of a solution that has its surface, patches and lighting. Its decisions are begun anew.
-    /// \param bin_levels one a root side \param iterations in all, those of `start` among them
-    /// \returns what was summed up, for the next run to start from
-    std::shared_ptr<const IterationSums> run(
-        Solution& solution, std::span<const std::int8_t> bin_levels, std::uint64_t iterations,
+    /// \param iterations in all, those that `refined` has sums of among them
+    /// \returns what was summed up, for the next run to go on from
+    std::shared_ptr<const IterationSums> run(Solution& solution, const Refined& refined,
+                                             std::uint64_t iterations) const;
+
+    // Its two halves. The second may be repeated with other colours.
+    void prepare(Solution& solution, std::span<const std::int8_t> bin_levels) const;
+    std::shared_ptr<const IterationSums> transport(
+        Solution& solution, std::uint64_t iterations,
         std::shared_ptr<const IterationSums> start = nullptr) const;
+
+    std::uint64_t band_groups = 0;  ///< whose results are to be kept, for the estimate of memory
 
 private:
     void shoot(Solution& solution) const;
@@ -34,5 +48,15 @@ private:
     Monitor& monitor_;
     StopWatch& watch_;
 };
+
+/// What comes before the Baker's last run: a solution with surface and patches, refined where
+/// options say so; of that, the decisions tell.
+struct Layout {
+    Solution solution;
+    Refined refined;
+    std::vector<Decision> decisions;
+};
+[[nodiscard]] Layout lay_out_solution(const Scene& scene, const BakeOptions& options,
+                                      const Baker& baker, StopWatch& watch, Monitor& monitor);
 
 }  // namespace transillum

@@ -96,6 +96,10 @@ bool is_image(std::string_view piece) {
     return piece.starts_with("texture-");
 }
 
+bool is_band_group(std::string_view piece) {
+    return piece.starts_with("bands-");
+}
+
 std::string file_of_piece(std::string_view piece) {
     return std::string(piece) + (is_image(piece) ? ".vti" : ".vtp");
 }
@@ -123,14 +127,14 @@ std::string format_index(const IndexFile& index) {
          << "\">\n";
     std::size_t block = 0;
     for (const IndexedPiece& piece : index.pieces) {
-        if (is_image(piece.name)) continue;
+        if (is_image(piece.name) || is_band_group(piece.name)) continue;
         text << "    <DataSet index=\"" << block++ << "\" ";
         attributes_of(piece);
     }
     text << "  </vtkMultiBlockDataSet>\n";
     for (const IndexedPiece& piece : index.pieces) {
-        if (!is_image(piece.name)) continue;
-        text << "  <Image ";
+        if (!is_image(piece.name) && !is_band_group(piece.name)) continue;
+        text << (is_image(piece.name) ? "  <Image " : "  <Bands ");
         attributes_of(piece);
     }
     text << "</VTKFile>\n";
@@ -143,7 +147,7 @@ IndexFile parse_index(const std::string& text, const std::filesystem::path& path
     std::istringstream lines(text);
     for (std::string line; std::getline(lines, line);) {
         if (line.find("<DataSet ") == std::string::npos &&
-            line.find("<Image ") == std::string::npos)
+            line.find("<Image ") == std::string::npos && line.find("<Bands ") == std::string::npos)
             continue;
         const std::string file = attribute(line, "file").value_or("");
         index.folder = file.substr(0, file.find('/'));

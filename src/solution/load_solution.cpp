@@ -26,6 +26,11 @@ public:
         return path_.parent_path() / index_.folder / file_of_piece(name);
     }
 
+    [[nodiscard]] bool has(const std::string& name) const {
+        return std::ranges::any_of(index_.pieces,
+                                   [&](const IndexedPiece& each) { return each.name == name; });
+    }
+
     [[nodiscard]] PolyData read(const std::string& name) const {
         return from_vtp(bytes_of(name), file(name));
     }
@@ -73,10 +78,7 @@ void read_textures(const Pieces& pieces, SurfaceMesh& surface) {
     }
 }
 
-}  // namespace
-
-Solution load_solution(const Path& path) {
-    const Pieces pieces(path);
+Solution load(const Pieces& pieces, const Path& path) {
     const auto read = [&](const std::string& name, auto read_piece, auto& into) {
         read_piece(*pieces.read(name), pieces.file(name), into);
     };
@@ -96,6 +98,26 @@ Solution load_solution(const Path& path) {
     }
     average_textures(solution);
     return solution;
+}
+
+}  // namespace
+
+Solution load_solution(const Path& path) {
+    return load(Pieces(path), path);
+}
+
+SpectralSolution load_spectral_solution(const Path& path) {
+    const Pieces pieces(path);
+    SpectralSolution spectral{load(pieces, path), 0, {}};
+    const std::string first = band_piece_name(0);
+    if (!pieces.has(first)) return spectral;
+    const Bands bands(read_band_count(*pieces.read(first), pieces.file(first)));
+    spectral.bands = bands.count();
+    for (int g = 0; g < bands.groups(); ++g) {
+        const std::string name = band_piece_name(g);
+        read_band_piece(*pieces.read(name), pieces.file(name), bands, g, spectral);
+    }
+    return spectral;
 }
 
 }  // namespace transillum

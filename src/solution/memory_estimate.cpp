@@ -13,6 +13,9 @@ namespace {
 constexpr std::uint64_t bytes_a_patch = 400, bytes_a_patch_and_thread = 32;
 /// Sums, those set aside, incoming radiance and result of an element.
 constexpr std::uint64_t bytes_an_element = 60;
+/// Results of a group, and the sums that they are converted in.
+constexpr std::uint64_t bytes_a_patch_and_group = 36, bytes_a_patch_converted = 76,
+                        bytes_an_element_and_group = 12, bytes_an_element_converted = 24;
 
 double gibibytes(std::uint64_t bytes) {
     return static_cast<double>(bytes) * 0x1p-30;
@@ -20,19 +23,27 @@ double gibibytes(std::uint64_t bytes) {
 
 }  // namespace
 
-MemoryEstimate estimate_memory(const Solution& solution, std::size_t light_samples, int threads) {
+MemoryEstimate estimate_memory(const Solution& solution, std::size_t light_samples, int threads,
+                               std::uint64_t band_groups) {
     const std::uint64_t patches = solution.patches.patch_count();
+    const std::uint64_t elements = solution.glossy.element_count;
+    const std::uint64_t converted =
+        patches * bytes_a_patch_converted + elements * bytes_an_element_converted;
     return {patches * (bytes_a_patch + bytes_a_patch_and_thread * static_cast<unsigned>(threads)),
-            first_shot_bytes(light_samples, patches),
-            solution.glossy.element_count * bytes_an_element};
+            first_shot_bytes(light_samples, patches), elements * bytes_an_element,
+            band_groups == 0 ? 0
+                             : band_groups * (patches * bytes_a_patch_and_group +
+                                              elements * bytes_an_element_and_group) +
+                                   converted};
 }
 
 void require_memory(const MemoryEstimate& e, std::uint64_t limit) {
     if (limit == 0 || e.total() <= limit) return;
     throw UsageError(fmt::format(
-        "memory: {:.2f} GiB for patches, {:.2f} for light samples, {:.2f} for direction bins; "
+        "memory: {:.2f} GiB for patches, {:.2f} for light samples, {:.2f} for direction bins{}; "
         "accepted: {:.2f} in all. Fewer leaves, light samples or direction bins need less",
         gibibytes(e.patches), gibibytes(e.first_shot), gibibytes(e.direction_bins),
+        e.band_groups == 0 ? "" : fmt::format(", {:.2f} for bands", gibibytes(e.band_groups)),
         gibibytes(limit)));
 }
 

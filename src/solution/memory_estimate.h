@@ -12,13 +12,16 @@ struct MemoryEstimate {
     std::uint64_t patches = 0;     ///< the iteration's sums and results
     std::uint64_t first_shot = 0;  ///< a table of light samples by patches
     std::uint64_t direction_bins = 0;
+    std::uint64_t band_groups = 0;  ///< results that are kept of every group of bands
 
-    [[nodiscard]] std::uint64_t total() const { return patches + first_shot + direction_bins; }
+    [[nodiscard]] std::uint64_t total() const {
+        return patches + first_shot + direction_bins + band_groups;
+    }
 };
 
 /// \pre the surface, patches and glossy sides are known.
 [[nodiscard]] MemoryEstimate estimate_memory(const Solution& solution, std::size_t light_samples,
-                                             int threads);
+                                             int threads, std::uint64_t band_groups = 0);
 
 /// \throws UsageError saying what needs how much and what to change, where the total exceeds
 /// `limit` [bytes]; 0 is no limit.

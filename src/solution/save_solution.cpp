@@ -11,6 +11,7 @@
 #include <transillum/base/error.h>
 
 #include <algorithm>
+#include <iterator>
 
 namespace transillum {
 
@@ -28,13 +29,13 @@ void check_name(const Path& path) {
     }
 }
 
-NamedBytes format_pieces(const Solution& solution, const Path& folder) {
+NamedBytes format_pieces(const Solution& solution, const Radiances& shown, const Path& folder) {
     NamedBytes pieces;
     const auto add = [&](const char* name, const PolyData& piece) {
         pieces.emplace_back(name, to_vtp(*piece, folder / (std::string(name) + ".vtp")));
     };
     const Patches stored = stored_patches(solution);
-    add("radiance", radiance_piece(solution, stored));
+    add("radiance", radiance_piece(solution, stored, shown));
     if (!solution.direct.samples.empty()) add("incoming", incoming_piece(solution, stored));
     add("lights", lights_piece(solution));
     const Environment& environment = solution.lighting.environment;
@@ -51,19 +52,61 @@ NamedBytes format_pieces(const Solution& solution, const Path& folder) {
     return pieces;
 }
 
-}  // namespace
-
-void save_solution(const Solution& solution, const RunRecord& run, const Path& path) {
-    check_name(path);
+void check_sound(const Solution& solution, const Path& path) {
     if (const std::string defect = find_defect(solution); !defect.empty()) {
         throw Error(path.string() + ": not saved, the solution is unsound: " + defect);
     }
+}
+
+void save_pieces(NamedBytes pieces, const RunRecord& run, const Path& path) {
     SolutionFiles files;
-    files.pieces = format_pieces(solution, Path(path).replace_extension());
+    files.pieces = std::move(pieces);
     files.index = format_index(index_of(path.stem().string(), files.pieces));
     for (auto& [name, bytes] : files.pieces) name = file_of_piece(name);
     files.pieces.emplace_back("run.json", format_run_record(run));
     replace_files(files, path);
+}
+
+/// Adds the radiance of a group to that of others, as RGB.
+void add_converted(const Radiances& of_group, const glm::dmat3& rgb_from_group, Radiances& sum) {
+    for (const auto member :
+         {&Radiances::emission, &Radiances::direct, &Radiances::finite_element}) {
+        std::vector<Spectrum>& to = sum.*member;
+        to.resize((of_group.*member).size(), Spectrum(0.0f));
+        for (std::size_t p = 0; p < to.size(); ++p)
+            to[p] += Spectrum(rgb_from_group * SpectrumSum((of_group.*member)[p]));
+    }
+}
+
+}  // namespace
+
+void save_solution(const Solution& solution, const RunRecord& run, const Path& path) {
+    check_name(path);
+    check_sound(solution, path);
+    save_pieces(format_pieces(solution, radiances_of(solution), Path(path).replace_extension()),
+                run, path);
+}
+
+void save_spectral_solution(const SpectralSolution& spectral, const RunRecord& run,
+                            const Path& path) {
+    check_name(path);
+    check_sound(spectral.rgb, path);
+    const Bands bands(spectral.bands);
+    const Path folder = Path(path).replace_extension();
+    Radiances shown;
+    NamedBytes groups;
+    Solution solution = spectral.rgb;
+    for (int g = 0; g < bands.groups(); ++g) {
+        put_into_group(solution, spectral, bands, g);
+        check_sound(solution, path);
+        add_converted(radiances_of(solution), bands.rgb_from_group(g), shown);
+        const std::string name = band_piece_name(g);
+        groups.emplace_back(name,
+                            to_vtp(*band_piece(spectral, bands, g), folder / file_of_piece(name)));
+    }
+    NamedBytes pieces = format_pieces(spectral.rgb, shown, folder);
+    std::ranges::move(groups, std::back_inserter(pieces));
+    save_pieces(std::move(pieces), run, path);
 }
 
 }  // namespace transillum

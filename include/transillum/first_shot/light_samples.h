@@ -41,6 +41,10 @@ struct Luminaires {
                                            const LightSampleOptions& options,
                                            const std::vector<PunctualLight>& lights = {});
 
+/// Sets what samples send anew, of emitters and lights that are where they were.
+void relight_samples(const SurfaceMesh& mesh, const std::vector<PunctualLight>& lights,
+                     std::vector<LightSample>& samples);
+
 /// Memory [bytes] that the samples of a first shot will take on so many patches.
 [[nodiscard]] std::uint64_t first_shot_bytes(std::size_t samples, std::uint64_t patches);
 

@@ -3,6 +3,7 @@
 
 #include <transillum/solution/save_solution.h>
 #include <transillum/solution/solution.h>
+#include <transillum/solution/spectral_solution.h>
 
 #include <filesystem>
 
@@ -12,6 +13,10 @@ namespace transillum {
 /// another format; IoError when it cannot be read. Values are checked: finite, in range, indices
 /// within bounds.
 [[nodiscard]] Solution load_solution(const std::filesystem::path& path);
+
+/// With its groups of bands; without any where it was baked in RGB. \throws as load_solution, also
+/// where groups are missing or are not of this solution.
+[[nodiscard]] SpectralSolution load_spectral_solution(const std::filesystem::path& path);
 
 /// The record that lies beside a solution; empty where there is none.
 [[nodiscard]] RunRecord load_run_record(const std::filesystem::path& path);

@@ -9,10 +9,12 @@
 /// - NAME/environment.vtp: the environment's image (absent without)
 /// - NAME/surface.vtp: the root triangles
 /// - NAME/texture-N.vti: the textures that materials name
+/// - NAME/bands-NN.vtp: of a solution in bands of wavelengths, a group of three (absent without)
 /// - NAME/run.json: timings, threads, command line: all that may differ between two equal solutions
 #pragma once
 
 #include <transillum/solution/solution.h>
+#include <transillum/solution/spectral_solution.h>
 
 #include <filesystem>
 #include <string>
@@ -39,5 +41,11 @@ struct RunRecord {
 /// changed.
 void save_solution(const Solution& solution, const RunRecord& run,
                    const std::filesystem::path& path);
+
+/// The same, with the groups of bands beside it. What viewers show as radiance is that of the
+/// groups, converted to linear sRGB, with negative values where it lies outside.
+/// \pre as many groups as the bands make up.
+void save_spectral_solution(const SpectralSolution& spectral, const RunRecord& run,
+                            const std::filesystem::path& path);
 
 }  // namespace transillum

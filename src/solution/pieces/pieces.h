@@ -3,6 +3,7 @@
 #pragma once
 
 #include <transillum/solution/solution.h>
+#include <transillum/solution/spectral_solution.h>
 
 #include <vtkImageData.h>
 #include <vtkPolyData.h>
@@ -49,8 +50,15 @@ void read_lighting(vtkFieldData& fields, const Path& file, Lighting& lighting);
 [[nodiscard]] PolyData environment_piece(const Texture& image);
 void read_environment_piece(vtkPolyData& piece, const Path& file, Environment& environment);
 
+/// What a person looks at [W sr^-1 m^-2], one a patch.
+struct Radiances {
+    std::vector<Spectrum> emission, direct, finite_element;
+};
+[[nodiscard]] Radiances radiances_of(const Solution& solution);
+
 /// What a person looks at, a cell a stored patch.
-[[nodiscard]] PolyData radiance_piece(const Solution& solution, const Patches& stored);
+[[nodiscard]] PolyData radiance_piece(const Solution& solution, const Patches& stored,
+                                      const Radiances& shown);
 /// Sides that are not stored get zeros. `surface` and `patches` must be there.
 void read_radiance_piece(vtkPolyData& piece, const Path& file, Solution& solution);
 
@@ -58,5 +66,13 @@ void read_radiance_piece(vtkPolyData& piece, const Path& file, Solution& solutio
 [[nodiscard]] PolyData incoming_piece(const Solution& solution, const Patches& stored);
 /// Light samples, `surface` and `patches` must be there.
 void read_incoming_piece(vtkPolyData& piece, const Path& file, Solution& solution);
+
+/// A group of bands, beside the blocks: as field data its wavelengths, and a BandGroup's members.
+[[nodiscard]] std::string band_piece_name(int group);
+[[nodiscard]] PolyData band_piece(const SpectralSolution& spectral, const Bands& bands, int group);
+[[nodiscard]] int read_band_count(vtkPolyData& piece, const Path& file);
+/// Adds the group to those before it. `rgb` must be there.
+void read_band_piece(vtkPolyData& piece, const Path& file, const Bands& bands, int group,
+                     SpectralSolution& spectral);
 
 }  // namespace transillum

@@ -77,7 +77,17 @@ void scatter(const std::vector<Value>& values, const Patches& stored, std::uint3
 
 }  // namespace
 
-PolyData radiance_piece(const Solution& solution, const Patches& stored) {
+Radiances radiances_of(const Solution& solution) {
+    Radiances shown;
+    for (std::uint32_t p = 0; p < solution.patches.patch_count(); ++p) {
+        shown.emission.push_back(solution.emission(p));
+        shown.direct.push_back(solution.direct_radiance(p));
+        shown.finite_element.push_back(solution.finite_element_radiance(p));
+    }
+    return shown;
+}
+
+PolyData radiance_piece(const Solution& solution, const Patches& stored, const Radiances& shown) {
     PolyData piece = patch_cells(solution, stored);
     vtkCellData& cells = *piece->GetCellData();
     const auto add = [&](const char* name, auto value_of_patch) {
@@ -85,13 +95,11 @@ PolyData radiance_piece(const Solution& solution, const Patches& stored) {
                   [&](std::size_t i) { return value_of_patch(stored[i]); });
     };
     add("Radiance", [&](std::uint32_t p) {
-        return solution.emission(p) + solution.direct_radiance(p) +
-               solution.finite_element_radiance(p);
+        return shown.emission[p] + shown.direct[p] + shown.finite_element[p];
     });
-    add("Emission", [&](std::uint32_t p) { return solution.emission(p); });
-    add("DirectRadiance", [&](std::uint32_t p) { return solution.direct_radiance(p); });
-    add("FiniteElementRadiance",
-        [&](std::uint32_t p) { return solution.finite_element_radiance(p); });
+    add("Emission", [&](std::uint32_t p) { return shown.emission[p]; });
+    add("DirectRadiance", [&](std::uint32_t p) { return shown.direct[p]; });
+    add("FiniteElementRadiance", [&](std::uint32_t p) { return shown.finite_element[p]; });
     add("DirectIrradiance", [&](std::uint32_t p) { return solution.direct_irradiance[p]; });
     add("IndirectIrradiance", [&](std::uint32_t p) { return solution.indirect_irradiance[p]; });
     add("StandardError", [&](std::uint32_t p) { return solution.standard_error[p]; });
