@@ -59,7 +59,7 @@ int run(const WalkArguments& a, const Common& common) {
     require_writable(a.folder + "/frame");
     const Solution solution = load_solution(a.solution);
     const Workers workers(a.shading.threads);
-    const SolutionRenderer renderer(solution, render, workers, console);
+    SolutionRenderer renderer(solution, render, workers, console);
     FrameMonitor silent(console);
     ToneMapping tone{a.exposure, true};
     for (std::uint64_t i = 0; i < frames; ++i) {

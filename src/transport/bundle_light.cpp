@@ -4,6 +4,7 @@
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <numbers>
 
 namespace transillum {
@@ -41,6 +42,7 @@ struct BundleLight::State {
         transfer.transfer_alone(exchange, bundle);
         direction = bundle.frame[2];
         ++bundles;
+        ++remembered;
         project();
     }
 
@@ -92,8 +94,8 @@ struct BundleLight::State {
     FiniteElementComponent elements;
     BundleTransfer transfer;
     glm::dvec3 direction{0.0, 0.0, 1.0};
-    std::uint64_t bundles = 0;
-    /// Sums over bundles. Double: of the many terms; bins get few each.
+    std::uint64_t bundles = 0, remembered = 0;
+    /// Sums over the bundles remembered. Double: of the many terms; bins get few each.
     std::vector<SpectrumSum> irradiance;
     std::vector<Spectrum> glossy;
 };
@@ -140,12 +142,18 @@ const PatchHierarchy& BundleLight::cells() const {
 
 BundleLight::Projected BundleLight::projected() const {
     Projected p;
-    const double share = 1.0 / static_cast<double>(std::max<std::uint64_t>(1, state_->bundles));
+    const double share = 1.0 / static_cast<double>(std::max<std::uint64_t>(1, state_->remembered));
     for (const SpectrumSum& sum : state_->irradiance)
         p.irradiance.emplace_back(std::numbers::pi * share * sum);
     for (const Spectrum& sum : state_->glossy)
         p.glossy_elements.push_back(static_cast<float>(share) * sum);
     return p;
+}
+
+void BundleLight::forget_projected() {
+    state_->remembered = 0;
+    std::ranges::fill(state_->irradiance, SpectrumSum(0.0));
+    std::ranges::fill(state_->glossy, Spectrum(0.0f));
 }
 
 }  // namespace transillum

@@ -57,12 +57,13 @@ public:
     /// Pieces over which incoming() is constant: quarters of the leaves. \pre subpatch
     [[nodiscard]] const PatchHierarchy& cells() const;
 
-    /// What finite elements would hold of all bundles so far.
+    /// What finite elements would hold of the bundles since they were last forgotten.
     struct Projected {
         std::vector<Spectrum> irradiance;       ///< one a patch [W m^-2]
         std::vector<Spectrum> glossy_elements;  ///< as glossy_sides.h lays them out
     };
     [[nodiscard]] Projected projected() const;
+    void forget_projected();
 
 private:
     struct State;

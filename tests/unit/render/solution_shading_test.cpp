@@ -100,7 +100,7 @@ void light_from_everywhere(Solution& s, float radiance) {
 
 RenderOptions with_monte_carlo(bool on) {
     RenderOptions options;
-    options.components.monte_carlo = on;
+    options.monte_carlo = on ? MonteCarloShading::rays : MonteCarloShading::off;
     return options;
 }
 
