@@ -2,6 +2,8 @@
 
 #include "cli/scene_options.h"
 
+#include <transillum/base/error.h>
+
 namespace transillum::cli {
 
 namespace {
@@ -62,6 +64,12 @@ RenderOptions make_render_options(const ShadingOptions& options, Size size) {
     render.height = size.height;
     render.components = chosen(options.components);
     render.interpolate = !options.flat;
+    const bool asked_for = render.monte_carlo != MonteCarloShading::automatic &&
+                           render.monte_carlo != MonteCarloShading::off;
+    if (asked_for && !render.components.monte_carlo)
+        throw UsageError(
+            "--monte-carlo asks for what --components leaves out; accepted: "
+            "monte-carlo among the components");
     return render;
 }
 

@@ -13,7 +13,9 @@ struct BundleLight::State {
     State(const SurfaceMesh& mesh, const PatchHierarchy& patches, const PatchSources& sources,
           std::span<const Spectrum> irradiance, std::span<const Spectrum> glossy_elements,
           const BundleLightOptions& options, const Workers& workers)
-        : mesh(mesh),
+        : given_irradiance(irradiance),
+          given_elements(glossy_elements),
+          mesh(mesh),
           patches(patches),
           sources(sources),
           workers(workers),
@@ -22,7 +24,7 @@ struct BundleLight::State {
           transfer(mesh, patches, options.pixel_size, options.seed, workers),
           irradiance(patches.patch_count()),
           glossy(sources.glossy.element_count) {
-        elements.restore(irradiance, glossy_elements);
+        elements.restore(given_irradiance, given_elements);
         transfer.carry(options.representation, elements);
     }
 
@@ -77,8 +79,13 @@ struct BundleLight::State {
         const std::uint32_t first =
             patches.roots[root].first_leaf + (back ? patches.leaf_count : 0);
         for (std::uint32_t p = first; p < first + patches.leaves_of(root); ++p) {
-            const Spectrum mean =
-                transfer.residual()->arrived(slot_of_patch(p, patches.leaf_count)).radiance;
+            const std::uint32_t slot = slot_of_patch(p, patches.leaf_count);
+            // Patches seen edge-on may lie between all pixels' centres.
+            if (!(transfer.residual()->arrived(slot).coverage > 0.0f))
+                transfer.residual()->assume(
+                    slot, side ? given_elements[side->element(bin, p)]
+                               : std::numbers::inv_pi_v<float> * given_irradiance[p]);
+            const Spectrum mean = transfer.residual()->arrived(slot).radiance;
             irradiance[p] += SpectrumSum(twice_cosine * mean);
             if (side)
                 glossy[side->element(bin, p)] +=
@@ -86,6 +93,7 @@ struct BundleLight::State {
         }
     }
 
+    std::span<const Spectrum> given_irradiance, given_elements;
     const SurfaceMesh& mesh;
     const PatchHierarchy& patches;
     const PatchSources& sources;
