@@ -2,6 +2,8 @@
 
 #include "cli/scene_options.h"
 
+#include <transillum/base/error.h>
+
 namespace transillum::cli {
 
 namespace {
@@ -27,17 +29,26 @@ void add_shading_options(CLI::App& command, ShadingOptions& options) {
         ->group("Shading");
     command
         .add_option("--components", options.components,
-                    "of: emission, direct, finite-element, monte-carlo (default: all, the last "
-                    "where surfaces are glossy)")
+                    "of: emission, direct, finite-element, monte-carlo (default: all)")
         ->delimiter(',')
         ->check(CLI::IsMember({"emission", "direct", "finite-element", "monte-carlo"}))
+        ->group("Shading");
+    add_choice(command, "--monte-carlo", options.render.monte_carlo,
+               {{"auto", MonteCarloShading::automatic},
+                {"off", MonteCarloShading::off},
+                {"rays", MonteCarloShading::rays},
+                {"subpatch", MonteCarloShading::subpatch},
+                {"wavefront", MonteCarloShading::wavefront}},
+               "what patches can't hold: by rays from glossy points; by new bundles, on patches' "
+               "quarters (carried from frame to frame) or in deep buffers; auto: rays where "
+               "surfaces are glossy")
         ->group("Shading");
     command.add_flag("--flat", options.flat, "one radiance a patch instead of interpolation")
         ->group("Shading");
     command
         .add_option("--iterations", options.render.iterations,
                     "most samples a pixel of the Monte-Carlo component and of what sharp lobes "
-                    "mirror; calm pixels get fewer")
+                    "mirror, calm pixels get fewer; and new bundles a picture")
         ->check(CLI::Range(1, 4096))
         ->capture_default_str()
         ->group("Shading");
@@ -53,6 +64,12 @@ RenderOptions make_render_options(const ShadingOptions& options, Size size) {
     render.height = size.height;
     render.components = chosen(options.components);
     render.interpolate = !options.flat;
+    const bool asked_for = render.monte_carlo != MonteCarloShading::automatic &&
+                           render.monte_carlo != MonteCarloShading::off;
+    if (asked_for && !render.components.monte_carlo)
+        throw UsageError(
+            "--monte-carlo asks for what --components leaves out; accepted: "
+            "monte-carlo among the components");
     return render;
 }
 

@@ -59,7 +59,7 @@ int run(const WalkArguments& a, const Common& common) {
     if (failed) throw IoError(a.folder, "cannot be made: " + failed.message());
     require_writable(a.folder + "/frame");
     const Workers workers(a.shading.threads);
-    const BandRenderer renderer(load_spectral_solution(a.solution), render, workers, console);
+    BandRenderer renderer(load_spectral_solution(a.solution), render, workers, console);
     FrameMonitor silent(console);
     ToneMapping tone{a.exposure, true};
     for (std::uint64_t i = 0; i < frames; ++i) {

@@ -61,20 +61,35 @@ GlossyField::GlossyField(const Solution& solution, const VertexGrid* grid,
                          Interpolation interpolation)
     : solution_(&solution),
       grid_(grid),
-      interpolation_(grid ? interpolation : Interpolation::none),
-      bins_(solution.glossy_elements.size()) {
+      interpolation_(grid ? interpolation : Interpolation::none) {
     const std::vector<Facet> facets = facets_of(solution.surface);
-    for (const GlossySide& side : solution.glossy.sides) {
+    for (const GlossySide& side : solution.glossy.sides)
         frames_.emplace_back(bin_frame(facets[side.root].side_normal(side.back)));
+    if (grid) stencils_ = VertexStencils(solution, *grid);
+    take(solution.glossy_elements);
+}
+
+GlossyField GlossyField::with_elements(std::span<const Spectrum> elements) const {
+    GlossyField other;
+    other.solution_ = solution_;
+    other.grid_ = grid_;
+    other.interpolation_ = interpolation_;
+    other.stencils_ = stencils_;
+    other.frames_ = frames_;
+    other.take(elements);
+    return other;
+}
+
+void GlossyField::take(std::span<const Spectrum> elements) {
+    bins_.resize(elements.size());
+    for (const GlossySide& side : solution_->glossy.sides) {
         const auto n = static_cast<std::uint64_t>(side.bins());
         for (std::uint64_t k = 0; k < n; ++k)
             for (std::uint64_t i = 0; i < side.leaf_count; ++i)
-                bins_[side.first_element + i * n + k] = glm::vec4(
-                    solution.glossy_elements[side.first_element + k * side.leaf_count + i], 0.0f);
+                bins_[side.first_element + i * n + k] =
+                    glm::vec4(elements[side.first_element + k * side.leaf_count + i], 0.0f);
     }
-    if (!grid) return;
-    stencils_ = VertexStencils(solution, *grid);
-    combine_at_vertices();
+    if (grid_) combine_at_vertices();
 }
 
 bool GlossyField::is_plane(std::span<const VertexStencils::Entry> entries) const {
@@ -129,7 +144,7 @@ Spectrum GlossyField::mean(const SurfacePoint& p, Body body) const {
         }
         sum += p.within[c] * (weight > 0.0f ? here / weight : body(elements_of(p.patch, own_side)));
     }
-    return glm::max(sum, Spectrum(0.0f));
+    return sum;
 }
 
 Spectrum GlossyField::reflected(const SurfacePoint& p) const {

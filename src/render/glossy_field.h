@@ -29,6 +29,9 @@ public:
     /// Keeps references. \param grid null: no interpolation; \pre there are glossy sides
     GlossyField(const Solution& solution, const VertexGrid* grid, Interpolation interpolation);
 
+    /// The same with other elements, of either sign.
+    [[nodiscard]] GlossyField with_elements(std::span<const Spectrum> elements) const;
+
     [[nodiscard]] const VertexStencils& stencils() const { return stencils_; }
     [[nodiscard]] const glm::mat3& world_from_local(const GlossySide& side) const {
         return frames_[&side - solution_->glossy.sides.data()];
@@ -45,6 +48,7 @@ private:
         std::uint32_t side;
         const glm::vec4* bins;
     };
+    void take(std::span<const Spectrum> elements);
     void combine_at_vertices();
     [[nodiscard]] bool is_plane(std::span<const VertexStencils::Entry> entries) const;
     [[nodiscard]] Elements elements_of(std::uint32_t patch, std::uint32_t side) const {

@@ -9,6 +9,7 @@
 #include <transillum/solution/solution.h>
 
 #include <array>
+#include <span>
 #include <vector>
 
 namespace transillum {
@@ -25,11 +26,17 @@ public:
     /// Keeps a reference to the grid. \param grid null: one value a patch
     LambertField(const Solution& solution, const VertexGrid* grid, LambertParts parts,
                  const Workers& workers);
+    /// Of other finite elements than the solution's, one irradiance a patch and as glossy_sides.h
+    /// lays them out; no direct light.
+    LambertField(const Solution& solution, const VertexGrid* grid,
+                 std::span<const Spectrum> irradiance, std::span<const Spectrum> glossy_elements,
+                 const Workers& workers);
 
     /// Mean incoming radiance [W sr^-1 m^-2], weighted as the Lambert part reflects it.
     [[nodiscard]] Spectrum at(const SurfacePoint& p) const;
 
 private:
+    LambertField(const Solution& solution, const VertexGrid* grid);
     void add(const std::vector<Spectrum>& of_patches, const std::vector<float>& weights,
              const Workers& workers);
 

@@ -45,7 +45,7 @@ BandRenderer::BandRenderer(SpectralSolution spectral, const RenderOptions& optio
     }
 }
 
-Image BandRenderer::render(const Camera& camera, const Workers& workers, Monitor& monitor) const {
+Image BandRenderer::render(const Camera& camera, const Workers& workers, Monitor& monitor) {
     if (bands_ == 0) return renderers_.front().render(camera, workers, monitor);
     return mix_groups(Bands(bands_), monitor, [&](int g, Monitor& part) {
         return renderers_[static_cast<std::size_t>(g)].render(camera, workers, part);

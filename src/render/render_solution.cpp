@@ -1,3 +1,4 @@
+#include "render/bundle_gather.h"
 #include "render/camera_rays.h"
 #include "render/pixel_sampler.h"
 #include "render/solution_shader.h"
@@ -53,13 +54,14 @@ struct Target {
 
 class Rendering {
 public:
-    Rendering(const SolutionShader& shader, const Camera& camera, const RenderOptions& options,
-              const Workers& workers, Monitor& monitor)
+    Rendering(const SolutionShader& shader, BundleGather* gather, const Camera& camera,
+              const RenderOptions& options, const Workers& workers, Monitor& monitor)
         : options_(options),
           workers_(workers),
           monitor_(monitor),
           view_(camera, options.width, options.height),
           shader_(shader),
+          gather_(gather),
           records_(static_cast<std::size_t>(options.width) * options.height) {}
 
     Image render() {
@@ -76,6 +78,9 @@ public:
             sample_where_needed("render: noise", [&](int x, int y) {
                 return Target{0, iterations_for(x, y)};
             });
+        if (gather_)
+            gathered_ = gather_->gather({view_, options_.width, options_.height, options_.seed},
+                                        options_.iterations, monitor_);
         return mean_image();
     }
 
@@ -195,8 +200,10 @@ private:
         image.pixels.reserve(records_.size());
         image.emitter_mask.reserve(records_.size());
         for (const PixelRecord& record : records_) {
-            // The mean of what is left to chance may be below 0 where the rest is dark.
-            image.pixels.emplace_back(glm::max(record.mean(), SpectrumSum(0.0)));
+            SpectrumSum sum = record.mean();
+            if (!gathered_.empty()) sum += SpectrumSum(gathered_[image.pixels.size()]);
+            // The Monte-Carlo component may be below 0 where the rest is dark.
+            image.pixels.emplace_back(glm::max(sum, SpectrumSum(0.0)));
             image.emitter_mask.push_back(static_cast<float>(record.on_emitter) /
                                          static_cast<float>(std::max(record.samples, 1)));
         }
@@ -208,6 +215,8 @@ private:
     Monitor& monitor_;
     CameraRays view_;
     const SolutionShader& shader_;
+    BundleGather* gather_;
+    std::vector<Spectrum> gathered_;  ///< of the pixels; empty without bundles
     std::vector<PixelRecord> records_;
     std::vector<Target> targets_;
 };
@@ -224,19 +233,33 @@ bool has_sharp_lobes(const Solution& s) {
 }
 
 RenderOptions decided(const Solution& s, RenderOptions options, Monitor& monitor) {
+    using enum MonteCarloShading;
     check_count("samples", options.samples);
     check_count("iterations", options.iterations);
-    std::optional<bool>& monte_carlo = options.components.monte_carlo;
-    if (!monte_carlo) {
-        monte_carlo = !s.glossy.empty();
-        monitor.note(*monte_carlo ? fmt::format("Monte-Carlo component, up to {} rays a pixel: "
-                                                "{} sides have glossy lobes",
-                                                options.iterations, s.glossy.sides.size())
-                                  : "no Monte-Carlo component: no surface has a glossy lobe");
+    MonteCarloShading& how = options.monte_carlo;
+    if (!options.components.monte_carlo) how = off;
+    if (how == automatic) {
+        how = s.glossy.empty() ? off : rays;
+        monitor.note(how == rays ? fmt::format("Monte-Carlo component, up to {} rays a pixel: "
+                                               "{} sides have glossy lobes",
+                                               options.iterations, s.glossy.sides.size())
+                                 : "no Monte-Carlo component: no surface has a glossy lobe");
     }
     if (has_sharp_lobes(s))
         monitor.note("rays follow reflections: some lobes are sharper than any direction bin");
     return options;
+}
+
+std::unique_ptr<BundleGather> make_gather(const Solution& solution, const SolutionShader& shader,
+                                          const RenderOptions& options, const Workers& workers) {
+    switch (options.monte_carlo) {
+        case MonteCarloShading::subpatch:
+            return make_subpatch_gather(solution, shader, options.seed, workers);
+        case MonteCarloShading::wavefront:
+            return make_wavefront_gather(solution, shader, options.seed, workers);
+        default:
+            return nullptr;
+    }
 }
 
 }  // namespace
@@ -244,15 +267,15 @@ RenderOptions decided(const Solution& s, RenderOptions options, Monitor& monitor
 SolutionRenderer::SolutionRenderer(const Solution& solution, const RenderOptions& options,
                                    const Workers& workers, Monitor& monitor)
     : options_(decided(solution, options, monitor)),
-      shader_(std::make_unique<SolutionShader>(solution, options_, workers)) {}
+      shader_(std::make_unique<SolutionShader>(solution, options_, workers)),
+      gather_(make_gather(solution, *shader_, options_, workers)) {}
 
 SolutionRenderer::~SolutionRenderer() = default;
 SolutionRenderer::SolutionRenderer(SolutionRenderer&&) noexcept = default;
 SolutionRenderer& SolutionRenderer::operator=(SolutionRenderer&&) noexcept = default;
 
-Image SolutionRenderer::render(const Camera& camera, const Workers& workers,
-                               Monitor& monitor) const {
-    return Rendering(*shader_, camera, options_, workers, monitor).render();
+Image SolutionRenderer::render(const Camera& camera, const Workers& workers, Monitor& monitor) {
+    return Rendering(*shader_, gather_.get(), camera, options_, workers, monitor).render();
 }
 
 Image render_solution(const Solution& solution, const Camera& camera, const RenderOptions& options,

@@ -11,17 +11,6 @@ namespace {
 constexpr int most_mirrors = 16, last_sure_mirror = 4;
 constexpr float highest_survival = 0.95f;
 
-/// Barycentric coordinates within a leaf from those within its root.
-glm::vec3 within_leaf(const PatchHierarchy& patches, std::uint32_t leaf, const Hit& hit) {
-    const auto [corners, level] = leaf_corners(patches, leaf);
-    const auto n = static_cast<float>(1 << level);
-    const glm::vec2 p = glm::vec2(hit.b1, hit.b2) * n - glm::vec2(corners[0]);
-    const glm::vec2 u(corners[1] - corners[0]), v(corners[2] - corners[0]);
-    const float whole = u.x * v.y - u.y * v.x;
-    const float b1 = (p.x * v.y - p.y * v.x) / whole, b2 = (u.x * p.y - u.y * p.x) / whole;
-    return {1.0f - b1 - b2, b1, b2};
-}
-
 bool survives(Spectrum& weight, int mirrors, PixelSampler& random) {
     if (mirrors <= last_sure_mirror) return true;
     const float chance = std::min(max_channel(weight), highest_survival);
@@ -42,7 +31,8 @@ SolutionShader::SolutionShader(const Solution& solution, const RenderOptions& op
     const VertexGrid* const grid = options.interpolate ? &grid_ : nullptr;
     if (grid) grid_ = build_vertex_grid(solution.surface, solution.patches);
     const bool has_glossy = !solution.glossy.empty();
-    const bool monte_carlo = has_glossy && c.monte_carlo.value_or(false);
+    const bool monte_carlo = has_glossy && options.monte_carlo != MonteCarloShading::off;
+    rays_from_eye_ = options.monte_carlo == MonteCarloShading::rays;
     if (has_glossy) {
         using enum GlossyField::Interpolation;
         glossy_ = GlossyField(solution, grid, monte_carlo ? planar : smooth);
@@ -68,11 +58,17 @@ Sight SolutionShader::look(const Ray& ray, Wanted wanted, PixelSampler& random) 
     const Spectrum emitted = emission(hit);
     sight.emits = max_channel(emitted) > 0.0f;
     const SurfacePoint p = point_at(hit, ray.direction);
-    sight.has_chance = p.is_sharp || (shown_.monte_carlo && p.side && p.has_lobe());
+    sight.has_chance = p.is_sharp || (rays_from_eye_ && p.side && p.has_lobe());
     if (wanted.steady) sight.steady = shade(p, shown_) + (shown_.emission ? emitted : Spectrum(0));
     if (wanted.by_chance && sight.has_chance)
         sight.by_chance = p.is_sharp ? mirrored(p, shown_, random) : difference(p, random);
     return sight;
+}
+
+std::optional<SolutionShader::Seen> SolutionShader::meet(const Ray& ray) const {
+    const Hit hit = rays_.intersect(ray);
+    if (!hit) return std::nullopt;
+    return Seen{hit, point_at(hit, ray.direction)};
 }
 
 SurfacePoint SolutionShader::point_at(const Hit& hit, const glm::dvec3& direction) const {

@@ -1,7 +1,8 @@
 /// What an eye ray sees of a solution (paper §2.1, eq. 3): emission + direct + finite-element +
 /// Monte-Carlo radiance.
 ///
-/// The Monte-Carlo component is estimated at glossy points: a direction of the lobe is followed to
+/// The Monte-Carlo component is estimated by bundles (bundle_gather.h) or, at glossy points, by
+/// rays: a direction of the lobe is followed to
 /// the next surface, and what comes from there, less what the finite elements hold for that
 /// direction, is added to what the lobe makes of them: they are the control variate. What comes
 /// from there is corrected likewise, by Russian roulette.
@@ -19,6 +20,8 @@
 #include <transillum/render/render_solution.h>
 #include <transillum/visibility/ray_tracer.h>
 
+#include <optional>
+
 namespace transillum {
 
 struct Sight {
@@ -35,9 +38,25 @@ struct Wanted {
 
 class SolutionShader {
 public:
-    /// Keeps a reference to the solution. \pre options.components.monte_carlo is decided
+    /// Keeps a reference to the solution. \pre options.monte_carlo is decided
     SolutionShader(const Solution& solution, const RenderOptions& options, const Workers& workers);
     [[nodiscard]] Sight look(const Ray& ray, Wanted wanted, PixelSampler& random) const;
+
+    struct Seen {
+        Hit hit;
+        SurfacePoint point;
+    };
+    /// The surface that a ray meets, without what it shows.
+    [[nodiscard]] std::optional<Seen> meet(const Ray& ray) const;
+    /// \param direction that it is seen along
+    [[nodiscard]] SurfacePoint point_at(const Hit& hit, const glm::dvec3& direction) const;
+    [[nodiscard]] const std::vector<Facet>& facets() const { return facets_; }
+    /// Null where nothing is interpolated.
+    [[nodiscard]] const VertexGrid* grid() const {
+        return grid_.leaf_vertices.empty() ? nullptr : &grid_;
+    }
+    /// \pre the solution has glossy sides
+    [[nodiscard]] const GlossyField& glossy() const { return glossy_; }
 
 private:
     /// One of the two ways that surfaces are shown.
@@ -51,7 +70,6 @@ private:
         Ray ray;
     };
 
-    [[nodiscard]] SurfacePoint point_at(const Hit& hit, const glm::dvec3& direction) const;
     [[nodiscard]] Spectrum emission(const Hit& hit) const;
     [[nodiscard]] bool is_shot(const Hit& hit) const;
     [[nodiscard]] Spectrum shade(const SurfacePoint& p, const Manner& manner) const;
@@ -70,8 +88,9 @@ private:
     GlossyField glossy_;
     DirectShader direct_;
     LambertField shown_lambert_, whole_lambert_;
-    Manner shown_;  ///< to the eye, as the options say
-    Manner whole_;  ///< to other surfaces: all that the solution stores
+    Manner shown_;                ///< to the eye, as the options say
+    Manner whole_;                ///< to other surfaces: all that the solution stores
+    bool rays_from_eye_ = false;  ///< where lobes are seen, too, not only through mirrors
 };
 
 }  // namespace transillum

@@ -46,6 +46,17 @@ Spectrum emission_at(const SurfaceMesh& mesh, std::uint32_t root, double b1, dou
     return mesh.textures[material.textures.emission]->at(uv_at(mesh, root, b1, b2));
 }
 
+glm::vec3 within_leaf(const PatchHierarchy& patches, std::uint32_t leaf, const Hit& hit) {
+    const auto [corners, level] = leaf_corners(patches, leaf);
+    const auto n = static_cast<float>(1 << level);
+    const glm::vec2 p = glm::vec2(hit.b1, hit.b2) * n - glm::vec2(corners[0]);
+    const glm::vec2 u(corners[1] - corners[0]), v(corners[2] - corners[0]);
+    const float whole = u.x * v.y - u.y * v.x;
+    const float b1 = (p.x * v.y - p.y * v.x) / whole, b2 = (u.x * p.y - u.y * p.x) / whole;
+    const glm::vec3 inside = glm::max(glm::vec3(1.0f - b1 - b2, b1, b2), glm::vec3(0.0f));
+    return inside / (inside.x + inside.y + inside.z);
+}
+
 Spectrum mean_emission(const SurfaceMesh& mesh, std::uint32_t root) {
     const Material& material = mesh.materials[mesh.triangles[root].material];
     if (mesh.uvs.empty() || material.textures.emission < 0) return material.emission;

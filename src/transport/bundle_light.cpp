@@ -4,6 +4,7 @@
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <numbers>
 
 namespace transillum {
@@ -12,7 +13,9 @@ struct BundleLight::State {
     State(const SurfaceMesh& mesh, const PatchHierarchy& patches, const PatchSources& sources,
           std::span<const Spectrum> irradiance, std::span<const Spectrum> glossy_elements,
           const BundleLightOptions& options, const Workers& workers)
-        : mesh(mesh),
+        : given_irradiance(irradiance),
+          given_elements(glossy_elements),
+          mesh(mesh),
           patches(patches),
           sources(sources),
           workers(workers),
@@ -21,7 +24,7 @@ struct BundleLight::State {
           transfer(mesh, patches, options.pixel_size, options.seed, workers),
           irradiance(patches.patch_count()),
           glossy(sources.glossy.element_count) {
-        elements.restore(irradiance, glossy_elements);
+        elements.restore(given_irradiance, given_elements);
         transfer.carry(options.representation, elements);
     }
 
@@ -41,6 +44,7 @@ struct BundleLight::State {
         transfer.transfer_alone(exchange, bundle);
         direction = bundle.frame[2];
         ++bundles;
+        ++remembered;
         project();
     }
 
@@ -75,8 +79,13 @@ struct BundleLight::State {
         const std::uint32_t first =
             patches.roots[root].first_leaf + (back ? patches.leaf_count : 0);
         for (std::uint32_t p = first; p < first + patches.leaves_of(root); ++p) {
-            const Spectrum mean =
-                transfer.residual()->arrived(slot_of_patch(p, patches.leaf_count)).radiance;
+            const std::uint32_t slot = slot_of_patch(p, patches.leaf_count);
+            // Patches seen edge-on may lie between all pixels' centres.
+            if (!(transfer.residual()->arrived(slot).coverage > 0.0f))
+                transfer.residual()->assume(
+                    slot, side ? given_elements[side->element(bin, p)]
+                               : std::numbers::inv_pi_v<float> * given_irradiance[p]);
+            const Spectrum mean = transfer.residual()->arrived(slot).radiance;
             irradiance[p] += SpectrumSum(twice_cosine * mean);
             if (side)
                 glossy[side->element(bin, p)] +=
@@ -84,6 +93,7 @@ struct BundleLight::State {
         }
     }
 
+    std::span<const Spectrum> given_irradiance, given_elements;
     const SurfaceMesh& mesh;
     const PatchHierarchy& patches;
     const PatchSources& sources;
@@ -92,8 +102,8 @@ struct BundleLight::State {
     FiniteElementComponent elements;
     BundleTransfer transfer;
     glm::dvec3 direction{0.0, 0.0, 1.0};
-    std::uint64_t bundles = 0;
-    /// Sums over bundles. Double: of the many terms; bins get few each.
+    std::uint64_t bundles = 0, remembered = 0;
+    /// Sums over the bundles remembered. Double: of the many terms; bins get few each.
     std::vector<SpectrumSum> irradiance;
     std::vector<Spectrum> glossy;
 };
@@ -140,12 +150,18 @@ const PatchHierarchy& BundleLight::cells() const {
 
 BundleLight::Projected BundleLight::projected() const {
     Projected p;
-    const double share = 1.0 / static_cast<double>(std::max<std::uint64_t>(1, state_->bundles));
+    const double share = 1.0 / static_cast<double>(std::max<std::uint64_t>(1, state_->remembered));
     for (const SpectrumSum& sum : state_->irradiance)
         p.irradiance.emplace_back(std::numbers::pi * share * sum);
     for (const Spectrum& sum : state_->glossy)
         p.glossy_elements.push_back(static_cast<float>(share) * sum);
     return p;
+}
+
+void BundleLight::forget_projected() {
+    state_->remembered = 0;
+    std::ranges::fill(state_->irradiance, SpectrumSum(0.0));
+    std::ranges::fill(state_->glossy, Spectrum(0.0f));
 }
 
 }  // namespace transillum

@@ -28,6 +28,7 @@ public:
     void carry_all();
     /// Null unless carried.
     [[nodiscard]] const MonteCarloComponent* residual() const { return residual_.get(); }
+    [[nodiscard]] MonteCarloComponent* residual() { return residual_.get(); }
     /// Directions for which it was.
     [[nodiscard]] std::uint64_t carried() const { return carried_; }
     /// Bound of what a point sends over what any patch does.

@@ -1,7 +1,9 @@
 #include <transillum/base/error.h>
 #include <transillum/transport/glossy_sides.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <string>
 #include <utility>
@@ -29,6 +31,10 @@ int bin_level_for(const Brdf& brdf) {
     while (level < max_bin_level && equivalent_shininess(brdf) >= least_shininess[level]) ++level;
     const bool weak = max_channel(lobe_albedo(brdf, 0.7f)) < weak_lobe;
     return weak && level > 0 ? level - 1 : level;
+}
+
+double lobe_width(const Brdf& brdf) {
+    return 1.0 / std::sqrt(std::max(1.0, double{equivalent_shininess(brdf)}));
 }
 
 bool is_sharper_than_bins(const Brdf& brdf) {

@@ -69,6 +69,10 @@ public:
 
     /// Mean of what the finite elements sent to a slot along the last bundle, and its coverage.
     [[nodiscard]] const Arrived& arrived(std::uint32_t slot) const { return arrived_[slot]; }
+    /// Takes the mean for known where there is no coverage.
+    void assume(std::uint32_t slot, const Spectrum& radiance) {
+        arrived_[slot].radiance = radiance;
+    }
     /// Radiance of the finite elements that arrived along the last bundle at a point of a patch,
     /// and over a side of one of the cells; the patch's mean where no sample tells better.
     [[nodiscard]] virtual Spectrum incoming(const SurfaceSide& point) const = 0;

@@ -46,8 +46,8 @@ void frames(benchmark::State& state, const Measured& m, const Camera& camera, co
     options.samples = view.samples;
     options.iterations = view.iterations;
     options.direct = DirectShading::stored;
-    options.components.monte_carlo = view.monte_carlo;
-    const SolutionRenderer renderer(m.solution, options, workers, silent);
+    options.monte_carlo = view.monte_carlo ? MonteCarloShading::rays : MonteCarloShading::off;
+    SolutionRenderer renderer(m.solution, options, workers, silent);
     for (auto _ : state) benchmark::DoNotOptimize(renderer.render(camera, workers, silent));
     state.counters["frames/s"] =
         benchmark::Counter(static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);

@@ -167,6 +167,10 @@ TEST_F(Results, WalkAlongAPath) {
                   .exit_code,
               0);
     EXPECT_EQ(run("compare linear/frame-00002.exr last.exr --fail-above 0").exit_code, 0);
+    // With bundles on sub-patches it knows more by then.
+    const std::string bundles = " --monte-carlo subpatch --iterations 4 ";
+    ASSERT_EQ(run("-q walk box.vtm -o gathered --format exr" + options + bundles).exit_code, 0);
+    EXPECT_EQ(run("compare gathered/frame-00002.exr last.exr --fail-above 0").exit_code, 1);
     const Outcome o = run("walk box.vtm -o frames --path missing.path");
     EXPECT_EQ(o.exit_code, 4);
     EXPECT_NE(o.err.find("missing.path"), std::string::npos) << o.err;
@@ -214,7 +218,10 @@ TEST_F(Results, HelpSaysTheDefaults) {
         {"bake",
          {"--iterations", "=1024", "--max-level", "=8", "--max-albedo", "=0.99",
           "--averaging balanced|paper=balanced"}},
-        {"render", {"--size WxH=500x500", "--samples", "=16", "--direct stored|traced=traced"}},
+        {"render",
+         {"--size WxH=500x500", "--samples", "=16", "--direct stored|traced=traced",
+          "--monte-carlo auto|off|rays|subpatch|wavefront=auto"}},
+        {"walk", {"--monte-carlo auto|off|rays|subpatch|wavefront=auto", "--iterations"}},
         {"reference", {"--size WxH=500x500", "--samples", "=256", "--max-albedo", "=0.99"}},
         {"info", {"SOLUTION", "--json"}},
         {"compare", {"--fail-above", "--json"}}};

@@ -22,7 +22,7 @@ public:
 
     /// \throws as SolutionRenderer::render.
     [[nodiscard]] Image render(const Camera& camera, const Workers& workers,
-                               Monitor& monitor) const;
+                               Monitor& monitor);
 
 private:
     int bands_;

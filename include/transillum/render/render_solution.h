@@ -9,7 +9,6 @@
 #include <transillum/solution/solution.h>
 
 #include <memory>
-#include <optional>
 
 namespace transillum {
 
@@ -18,47 +17,58 @@ enum class DirectShading {
     traced   ///< shadow rays to the light samples, at every point
 };
 
+/// How the Monte-Carlo component, what finite elements leave out of the reflection, is estimated.
+enum class MonteCarloShading {
+    automatic,  ///< as was measured to be best for a picture
+    off,
+    rays,  ///< along glossy lobes of points that are seen, as noise; Lambert surfaces get none
+    /// Bundles transferred anew, what they bring constant on the quarters of patches (§3.1.2).
+    /// Carried from picture to picture (§5).
+    subpatch,
+    wavefront  ///< the same as deep buffers know them, point by point (§3.1.1)
+};
+
 /// What of the radiance is shown. Through mirrors these are the components of what is mirrored.
 struct Components {
-    bool emission = true, direct = true, finite_element = true;
-    /// What the finite elements leave out of the reflection of glossy lobes: rays, and so noise.
-    /// Undecided: where the solution has glossy sides.
-    std::optional<bool> monte_carlo = std::nullopt;
+    bool emission = true, direct = true, finite_element = true, monte_carlo = true;
 };
 
 struct RenderOptions {
     int width = 500, height = 500;
     int samples = 16;  ///< most rays a pixel [1, 4096]; flat pixels get fewer
     /// Most samples a pixel of what is left to chance [1, 4096]: the Monte-Carlo component and what
-    /// sharp lobes show; calm pixels get fewer.
+    /// sharp lobes show; calm pixels get fewer. And bundles a picture.
     int iterations = 64;
+    MonteCarloShading monte_carlo = MonteCarloShading::automatic;
     DirectShading direct = DirectShading::traced;
     bool interpolate = true;  ///< Gouraud within shading fans; else one radiance a patch
     Components components;
     std::uint64_t seed = 1;
 };
 
+class BundleGather;
 class SolutionShader;
 
 /// A solution made ready to be looked at, for one camera after the other.
 class SolutionRenderer {
 public:
-    /// Keeps a reference to the solution. Notes what it decided. \throws UsageError for a count out
-    /// of range.
+    /// Keeps references to the solution and the workers. Notes what it decided. \throws UsageError
+    /// for a count out of range.
     SolutionRenderer(const Solution& solution, const RenderOptions& options, const Workers& workers,
                      Monitor& monitor);
     ~SolutionRenderer();
     SolutionRenderer(SolutionRenderer&&) noexcept;
     SolutionRenderer& operator=(SolutionRenderer&&) noexcept;
 
-    /// Pixels are means over their squares. The image does not depend on the number of threads.
+    /// Pixels are means over their squares. The image does not depend on the number of threads, but
+    /// with sub-patches on those before.
     /// \throws UsageError for a size or a camera it cannot use.
-    [[nodiscard]] Image render(const Camera& camera, const Workers& workers,
-                               Monitor& monitor) const;
+    [[nodiscard]] Image render(const Camera& camera, const Workers& workers, Monitor& monitor);
 
 private:
     RenderOptions options_;
     std::unique_ptr<SolutionShader> shader_;
+    std::unique_ptr<BundleGather> gather_;  ///< null without bundles
 };
 
 /// One picture of a SolutionRenderer.

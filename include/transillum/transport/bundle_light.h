@@ -48,7 +48,8 @@ public:
     /// [unit] Light comes from it, or from opposite, to whichever side faces it.
     [[nodiscard]] glm::dvec3 direction() const;
     /// Radiance that arrives at a point along it [W sr^-1 m^-2]; its patch's mean where the
-    /// representation knows nothing better. Any number of threads may ask.
+    /// representation knows nothing better, and what its elements hold where that knows nothing.
+    /// Any number of threads may ask.
     [[nodiscard]] Spectrum incoming(const SurfaceSide& point) const;
     /// The same of a side of one of cells().
     [[nodiscard]] Spectrum incoming_of_cell(std::uint32_t cell_patch) const;
@@ -57,12 +58,13 @@ public:
     /// Pieces over which incoming() is constant: quarters of the leaves. \pre subpatch
     [[nodiscard]] const PatchHierarchy& cells() const;
 
-    /// What finite elements would hold of all bundles so far.
+    /// What finite elements would hold of the bundles since they were last forgotten.
     struct Projected {
         std::vector<Spectrum> irradiance;       ///< one a patch [W m^-2]
         std::vector<Spectrum> glossy_elements;  ///< as glossy_sides.h lays them out
     };
     [[nodiscard]] Projected projected() const;
+    void forget_projected();
 
 private:
     struct State;

@@ -54,6 +54,9 @@ struct BinOptions {
 
 /// Level at which bins resolve a lobe as far as the transport needs it.
 [[nodiscard]] int bin_level_for(const Brdf& brdf);
+/// Standard deviation of the lobe's directions about the mirrored one [radians], but for those that
+/// the horizon cuts off.
+[[nodiscard]] double lobe_width(const Brdf& brdf);
 /// Bins of the deepest level are wider than the lobe: what they hold of it is blurred.
 [[nodiscard]] bool is_sharper_than_bins(const Brdf& brdf);
 

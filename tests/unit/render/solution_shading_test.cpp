@@ -100,7 +100,7 @@ void light_from_everywhere(Solution& s, float radiance) {
 
 RenderOptions with_monte_carlo(bool on) {
     RenderOptions options;
-    options.components.monte_carlo = on;
+    options.monte_carlo = on ? MonteCarloShading::rays : MonteCarloShading::off;
     return options;
 }
 
@@ -447,7 +447,7 @@ TEST_F(GlossyRoom, IsTheSameForACameraThatCameLater) {
     options.width = options.height = size;
     Monitor silent;
     const Workers workers(2);
-    const SolutionRenderer renderer(*solution, options, workers, silent);
+    SolutionRenderer renderer(*solution, options, workers, silent);
     const Camera elsewhere = narrow_camera({0.5, 0.5, 0.9}, {0.2, 0.2, 0});
     (void)renderer.render(elsewhere, workers, silent);
     EXPECT_EQ(renderer.render(camera(), workers, silent).pixels,
