@@ -28,7 +28,7 @@ void note_decisions(const Solution& s, Monitor& monitor) {
 }
 
 void record_settings(const BakeOptions& o, Solution& s) {
-    const char* const shots[] = {"auto", "off", "hemicube"};
+    const char* const shots[] = {"auto", "off", "hemicube", "vectors"};
     s.settings = {
         {"patch-size", fmt::format("{}", o.subdivision.patch_size)},
         {"leaves", fmt::format("{}", o.subdivision.leaf_target)},

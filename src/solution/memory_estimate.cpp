@@ -1,7 +1,6 @@
 #include "solution/memory_estimate.h"
 
 #include <transillum/base/error.h>
-#include <transillum/first_shot/light_samples.h>
 
 #include <fmt/format.h>
 
@@ -20,10 +19,11 @@ double gibibytes(std::uint64_t bytes) {
 
 }  // namespace
 
-MemoryEstimate estimate_memory(const Solution& solution, std::size_t light_samples, int threads) {
+MemoryEstimate estimate_memory(const Solution& solution, const Luminaires& luminaires,
+                               int threads) {
     const std::uint64_t patches = solution.patches.patch_count();
     return {patches * (bytes_a_patch + bytes_a_patch_and_thread * static_cast<unsigned>(threads)),
-            first_shot_bytes(light_samples, patches),
+            first_shot_bytes(luminaires, patches),
             solution.glossy.element_count * bytes_an_element};
 }
 
