@@ -12,7 +12,7 @@ namespace transillum {
 namespace {
 
 constexpr std::uint32_t no_row = 0xffffffffu;
-/// A light vector may come from a little behind the horizon of a neighbour.
+/// A patch that a light reaches may have its centre a little behind the light's horizon.
 constexpr float least_cosine = 0.02f;
 
 double diameter_of(const SurfaceMesh& mesh) {
@@ -119,7 +119,7 @@ void DirectShader::prepare_stored(const VertexGrid* grid, const VertexStencils* 
         if (!stencils->at(i / 2, i % 2 != 0).empty()) first_row_[i] = rows++;
     if (light.has_vectors()) {
         row_size_ = light.columns();
-        vertex_vectors_.resize(rows * row_size_, glm::vec4(0.0f));
+        vertex_vectors_.resize(rows * row_size_);
         average_vectors(*stencils, workers);
     } else {
         row_size_ = (light.columns() + 7) / 8 * 8;
@@ -155,15 +155,34 @@ void DirectShader::average_vectors(const VertexStencils& stencils, const Workers
     workers.for_ranges(first_row_.size(), 256, [&](std::size_t from, std::size_t to, int) {
         for (std::size_t v = from; v < to; ++v) {
             if (first_row_[v] == no_row) continue;
-            glm::vec4* const row = &vertex_vectors_[first_row_[v] * row_size_];
-            for (const VertexStencils::Entry& e :
-                 stencils.at(static_cast<std::uint32_t>(v / 2), v % 2 != 0))
-                for (std::size_t i = 0; i < row_size_; ++i) {
-                    const glm::vec3& vector = solution_.direct.vectors[e.patch * row_size_ + i];
-                    row[i] += e.weight * glm::vec4(vector, glm::length(vector));
-                }
+            const auto entries = stencils.at(static_cast<std::uint32_t>(v / 2), v % 2 != 0);
+            for (std::size_t i = 0; i < row_size_; ++i)
+                vertex_vectors_[first_row_[v] * row_size_ + i] = average_vector(entries, i);
         }
     });
+}
+
+/// Of the patches that touch a vertex and face the light, in its shadow or not.
+glm::vec3 DirectShader::average_vector(std::span<const VertexStencils::Entry> entries,
+                                       std::size_t column) const {
+    const auto vector_at = [&](const VertexStencils::Entry& e) {
+        return solution_.direct.vectors[e.patch * row_size_ + column];
+    };
+    glm::vec3 sum(0.0f);
+    for (const VertexStencils::Entry& e : entries) sum += e.weight * vector_at(e);
+    const float length = glm::length(sum);
+    if (!(length > 0.0f)) return glm::vec3(0.0f);
+    // Patches that hardly face it know least of how bright it is, and count least.
+    float facing = 0.0f;
+    for (const VertexStencils::Entry& e : entries) {
+        const GlossySide& side = solution_.glossy.sides[e.side];
+        const glm::vec3 normal(normal_of(solution_.surface, side.root) * (side.back ? -1.0 : 1.0));
+        const glm::vec3 vector = vector_at(e);
+        const float own = glm::length(vector);
+        facing += e.weight * (own > 0.0f ? std::max(least_cosine, glm::dot(normal, vector) / own)
+                                         : std::max(0.0f, glm::dot(normal, sum) / length));
+    }
+    return sum / facing;
 }
 
 Spectrum DirectShader::stored(const SurfacePoint& p) const {
@@ -216,24 +235,24 @@ void DirectShader::add_interpolated_samples(const SurfacePoint& p, ReflectedSum&
 void DirectShader::add_vectors(const SurfacePoint& p, ReflectedSum& sum) const {
     const DirectLight& light = solution_.direct;
     const std::size_t n = light.columns();
-    const auto add = [&](std::size_t i, const glm::vec3& vector, float irradiance) {
-        if (!(irradiance > 0.0f)) return;
-        sum.add(raised(vector * p.world_from_local), light.light(i).emitted * irradiance,
-                is_of_surface(light.light(i)));
+    const auto add = [&](std::size_t i, const glm::vec3& in, float share) {
+        const LightSample& first = light.light(i);
+        if (share > 0.0f) sum.add(raised(in), first.emitted * share, is_of_surface(first));
     };
     if (!grid_) {
         for (std::size_t i = 0; i < n; ++i) {
             const glm::vec3& vector = light.vectors[p.patch * n + i];
-            add(i, vector, glm::length(vector));
+            add(i, vector * p.world_from_local, glm::length(vector));
         }
         return;
     }
     const auto rows = rows_of(p);
     for (std::size_t i = 0; i < n; ++i) {
-        const glm::vec4 mixed = p.within.x * vertex_vectors_[rows[0] + i] +
+        const glm::vec3 mixed = p.within.x * vertex_vectors_[rows[0] + i] +
                                 p.within.y * vertex_vectors_[rows[1] + i] +
                                 p.within.z * vertex_vectors_[rows[2] + i];
-        add(i, glm::vec3(mixed), mixed.w);
+        const glm::vec3 in = mixed * p.world_from_local;
+        add(i, in, in.z);
     }
 }
 

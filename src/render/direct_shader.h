@@ -9,10 +9,9 @@
 #include <transillum/solution/solution.h>
 #include <transillum/visibility/ray_tracer.h>
 
-#include <glm/vec4.hpp>
-
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace transillum {
@@ -44,6 +43,8 @@ private:
     [[nodiscard]] std::array<std::size_t, 3> rows_of(const SurfacePoint& p) const;
     void average_visibility(const VertexStencils& stencils, const Workers& workers);
     void average_vectors(const VertexStencils& stencils, const Workers& workers);
+    [[nodiscard]] glm::vec3 average_vector(std::span<const VertexStencils::Entry> entries,
+                                           std::size_t column) const;
     void add_samples_of_patch(const SurfacePoint& p, ReflectedSum& sum) const;
     void add_interpolated_samples(const SurfacePoint& p, ReflectedSum& sum) const;
     template <class Use>
@@ -59,8 +60,9 @@ private:
     /// padded with zeros.
     std::vector<std::uint8_t> vertex_visibility_;
     std::size_t row_size_ = 0;
-    /// Mean light vector of the patches that touch a vertex, and mean of their lengths.
-    std::vector<glm::vec4> vertex_vectors_;
+    /// Of a surface that faces it: irradiance is its product with the normal. Rows of light
+    /// vectors.
+    std::vector<glm::vec3> vertex_vectors_;
     std::vector<std::uint32_t> first_row_;  ///< 2 * vertex + back
 };
 
