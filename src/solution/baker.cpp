@@ -56,7 +56,7 @@ void decide_first_shot(const Luminaires& luminaires, FirstShot choice, std::uint
     if (luminaires.first_samples.empty()) return;
     const std::size_t vectors = luminaires.first_samples.size();
     decisions.push_back(
-        {fmt::format("{} light vectors a patch, {:.1f} MiB", vectors,
+        {fmt::format("{} light vector{} a patch, {:.1f} MiB", vectors, vectors == 1 ? "" : "s",
                      mebibytes(light_vector_bytes(vectors, patches))),
          fmt::format("asked for; all samples would take {:.1f} MiB",
                      mebibytes(sample_table_bytes(luminaires.samples.size(), patches)))});

@@ -1,5 +1,6 @@
 // Bakes that keep direct light as light vectors, beside those that keep every light sample.
 #include "solution/incoming_light.h"
+#include "solution/memory_estimate.h"
 #include "support/scene_builder.h"
 
 #include <transillum/base/error.h>
@@ -113,19 +114,20 @@ TEST(LightVectors, HardlyChangeTheIteration) {
 TEST(LightVectors, AreADecisionThatSaysWhatTheySave) {
     const auto& decisions = of_vectors().decisions;
     const auto at = std::ranges::find_if(decisions, [](const Decision& d) {
-        return d.what.starts_with("1 light vectors a patch, ");
+        return d.what.starts_with("1 light vector a patch, ");
     });
     ASSERT_NE(at, decisions.end());
     EXPECT_THAT(at->why, testing::HasSubstr("all samples would take"));
-    EXPECT_THAT(of_samples().decisions,
-                testing::Not(testing::Contains(
-                    testing::Field(&Decision::what, testing::HasSubstr("light vectors")))));
+    EXPECT_THAT(of_samples().decisions, testing::Not(testing::Contains(testing::Field(
+                                            &Decision::what, testing::HasSubstr("light vector")))));
 }
 
 TEST(LightVectors, FitWhereTheTablesDoNot) {
-    const std::uint64_t tables = sample_table_bytes(64, of_samples().patches.patch_count());
-    EXPECT_THROW((void)bake_with(FirstShot::hemicube, tables), UsageError);
-    EXPECT_NO_THROW((void)bake_with(FirstShot::vectors, tables));
+    const Luminaires luminaires =
+        sample_luminaires(of_samples().surface, {.first_shot = FirstShot::hemicube, .samples = 64});
+    const std::uint64_t needed = estimate_memory(of_samples(), luminaires, 2).total();
+    EXPECT_THROW((void)bake_with(FirstShot::hemicube, needed - 1), UsageError);
+    EXPECT_NO_THROW((void)bake_with(FirstShot::vectors, needed - 1));
 }
 
 }  // namespace transillum::test
