@@ -116,8 +116,11 @@ void add_options(CLI::App& command, BakeArguments& a) {
     add_choice(command, "--first-shot", a.bake.light.first_shot,
                {{"auto", FirstShot::automatic},
                 {"off", FirstShot::off},
-                {"hemicube", FirstShot::hemicube}},
-               "direct light of small luminaires by light samples")
+                {"hemicube", FirstShot::hemicube},
+                {"vectors", FirstShot::vectors}},
+               "direct light by light samples: auto: of small luminaires; hemicube: of all; "
+               "vectors: of all, but kept as one vector a luminaire and patch, which takes less "
+               "memory and blurs glossy highlights")
         ->group(method);
     command
         .add_option("--light-samples", a.bake.light.samples,

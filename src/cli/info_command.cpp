@@ -42,6 +42,7 @@ Json describe(const Solution& s, const RunRecord& run) {
             {"objects", s.surface.objects.size()},
             {"patches", s.patches.patch_count()},
             {"light_samples", s.direct.samples.size()},
+            {"light_vectors", s.direct.first_samples.size()},
             {"iterations", s.iterations},
             {"relative_error", s.relative_error},
             {"interrupted", s.interrupted},
@@ -75,6 +76,7 @@ void print_text(const Json& j) {
                                   j["objects"].dump(), j["materials"].dump()));
     line("patches", j["patches"].dump());
     line("light samples", j["light_samples"].dump());
+    if (j["light_vectors"] > 0) line("light vectors", j["light_vectors"].dump() + " a patch");
     line("iterations",
          j["iterations"].dump() + (j["interrupted"].get<bool>() ? " (interrupted)" : ""));
     line("estimated error", fmt::format("{:.3f} %", 100.0 * j["relative_error"].get<double>()));

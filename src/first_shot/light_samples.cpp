@@ -1,3 +1,5 @@
+#include "first_shot/light_vectors.h"
+
 #include <transillum/base/error.h>
 #include <transillum/base/sampling.h>
 #include <transillum/first_shot/light_samples.h>
@@ -107,6 +109,13 @@ void add_samples(const SurfaceMesh& mesh, const Luminaire& luminaire, int count,
     }
 }
 
+void add_runs(const std::vector<LightSample>& samples, std::size_t begin,
+              std::vector<std::uint32_t>& first_samples) {
+    for (std::size_t i = begin; i < samples.size(); ++i)
+        if (i == begin || samples[i].emitted != samples[i - 1].emitted)
+            first_samples.push_back(static_cast<std::uint32_t>(i));
+}
+
 LightSample sample_of(const PunctualLight& light, std::uint32_t number) {
     LightSample s;
     s.position = light.position;
@@ -141,6 +150,7 @@ Luminaires sample_luminaires(const SurfaceMesh& mesh, const LightSampleOptions& 
     double surface = 0.0;
     for (std::uint32_t r = 0; r < mesh.triangles.size(); ++r)
         surface += transillum::area_of(mesh, r);
+    const bool vectors = options.first_shot == FirstShot::vectors;
     const int count = options.samples > 0 ? options.samples : samples_for(luminaires.size());
     for (std::size_t i = 0; i < luminaires.size(); ++i) {
         const double share = area_of(luminaires[i]) / surface;
@@ -150,12 +160,16 @@ Luminaires sample_luminaires(const SurfaceMesh& mesh, const LightSampleOptions& 
             continue;
         }
         ++result.shot;
+        const std::size_t begin = result.samples.size();
         add_samples(mesh, luminaires[i], count, hash_bits(options.seed) + i, result.samples);
+        if (vectors) add_runs(result.samples, begin, result.first_samples);
         for (const EmittingSide& s : luminaires[i])
             result.shot_sides[2 * s.root + (s.back ? 1 : 0)] = 1;
     }
-    for (std::uint32_t i = 0; i < lights.size(); ++i)
+    for (std::uint32_t i = 0; i < lights.size(); ++i) {
         result.samples.push_back(sample_of(lights[i], i));
+        if (vectors) add_runs(result.samples, result.samples.size() - 1, result.first_samples);
+    }
     return result;
 }
 
@@ -166,8 +180,19 @@ void relight_samples(const SurfaceMesh& mesh, const std::vector<PunctualLight>& 
                                                       : lights[s.light].intensity;
 }
 
-std::uint64_t first_shot_bytes(std::size_t samples, std::uint64_t patches) {
+std::uint64_t sample_table_bytes(std::size_t samples, std::uint64_t patches) {
     return samples * patches * (sizeof(float) + sizeof(float));
+}
+
+std::uint64_t light_vector_bytes(std::size_t vectors, std::uint64_t patches) {
+    return vectors * patches * sizeof(glm::vec3);
+}
+
+std::uint64_t first_shot_bytes(const Luminaires& luminaires, std::uint64_t patches) {
+    if (luminaires.first_samples.empty())
+        return sample_table_bytes(luminaires.samples.size(), patches);
+    return light_vector_bytes(luminaires.first_samples.size(), patches) +
+           patches * LightVectorSums::bytes_a_patch;
 }
 
 }  // namespace transillum

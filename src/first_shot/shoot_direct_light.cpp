@@ -1,3 +1,5 @@
+#include "first_shot/light_vectors.h"
+
 #include <transillum/base/sampling.h>
 #include <transillum/first_shot/shoot_direct_light.h>
 #include <transillum/visibility/hemicube.h>
@@ -8,6 +10,7 @@
 #include <memory>
 #include <mutex>
 #include <numbers>
+#include <optional>
 
 namespace transillum {
 
@@ -31,12 +34,18 @@ public:
         : mesh_(mesh), patches_(patches), luminaires_(luminaires), resolution_(resolution) {
         light_.samples = luminaires.samples;
         light_.shot_sides = luminaires.shot_sides;
+        light_.first_samples = luminaires.first_samples;
+        if (light_.has_vectors()) {
+            vectors_.emplace(mesh, patches, light_);
+            return;
+        }
         light_.geometry_factor.resize(light_.samples.size() * patches.patch_count());
         light_.visibility.resize(light_.geometry_factor.size());
     }
 
     /// A hemicube a sample, on each worker.
     void shoot_near(const Workers& workers, Monitor& monitor) {
+        if (vectors_) return sum_up_near(workers, monitor);
         std::vector<std::unique_ptr<Hemicube>> hemicubes(workers.count());
         std::mutex reporting;
         const auto shoot = [&](std::size_t begin, std::size_t end, int worker) {
@@ -44,7 +53,7 @@ public:
             if (!hemicube) hemicube = std::make_unique<Hemicube>(mesh_, patches_, resolution_);
             for (std::size_t i = begin; i < end && !monitor.stop_requested(); ++i) {
                 if (is_directional(i)) continue;
-                keep(i, look(*hemicube, i), is_area(i) ? light_.samples[i].area : 1.0);
+                keep(i, look(*hemicube, i));
                 const std::lock_guard lock(reporting);
                 report(monitor);
             }
@@ -64,7 +73,11 @@ public:
             Bundle bundle{turned_frame(light_.samples[i], random)};
             bundle.offset_x = random.next();
             bundle.offset_y = random.next();
-            keep(i, view->look(bundle, workers), 1.0);
+            const std::vector<PatchView>& views = view->look(bundle, workers);
+            if (vectors_)
+                vectors_->add(i, views, 1.0, workers);
+            else
+                keep(i, views);
             report(monitor);
         }
     }
@@ -78,6 +91,36 @@ private:
     [[nodiscard]] bool is_directional(std::size_t i) const {
         return light_.samples[i].kind == LightSample::Kind::directional;
     }
+    [[nodiscard]] double scale(std::size_t i) const {
+        return is_area(i) ? light_.samples[i].area : 1.0;
+    }
+
+    /// As many samples at a time as there are workers, summed up in their order.
+    void sum_up_near(const Workers& workers, Monitor& monitor) {
+        std::vector<std::unique_ptr<Hemicube>> hemicubes(workers.count());
+        std::vector<const std::vector<PatchView>*> views(hemicubes.size());
+        std::vector<std::size_t> near;
+        for (std::size_t i = 0; i < light_.samples.size(); ++i)
+            if (!is_directional(i)) near.push_back(i);
+        for (std::size_t first = 0; first < near.size() && !monitor.stop_requested();
+             first += views.size()) {
+            const std::size_t count = std::min(views.size(), near.size() - first);
+            workers.for_ranges(count, 1, [&](std::size_t begin, std::size_t end, int) {
+                for (std::size_t k = begin; k < end; ++k) {
+                    auto& hemicube = hemicubes[k];
+                    if (!hemicube)
+                        hemicube = std::make_unique<Hemicube>(mesh_, patches_, resolution_);
+                    views[k] = &look(*hemicube, near[first + k]);
+                }
+            });
+            for (std::size_t k = 0; k < count; ++k) {
+                const std::size_t i = near[first + k];
+                vectors_->add(i, *views[k], scale(i), workers);
+                report(monitor);
+            }
+        }
+        vectors_->close(workers);
+    }
 
     const std::vector<PatchView>& look(Hemicube& hemicube, std::size_t i) const {
         const LightSample& sample = light_.samples[i];
@@ -90,10 +133,10 @@ private:
         });
     }
 
-    void keep(std::size_t i, const std::vector<PatchView>& views, double scale) {
+    void keep(std::size_t i, const std::vector<PatchView>& views) {
         const std::size_t n = light_.samples.size();
         for (std::uint32_t p = 0; p < views.size(); ++p) {
-            light_.geometry_factor[p * n + i] = static_cast<float>(views[p].mean_kernel * scale);
+            light_.geometry_factor[p * n + i] = static_cast<float>(views[p].mean_kernel * scale(i));
             light_.visibility[p * n + i] = views[p].visibility;
         }
     }
@@ -107,6 +150,7 @@ private:
     const Luminaires& luminaires_;
     int resolution_;
     DirectLight light_;
+    std::optional<LightVectorSums> vectors_;  ///< where they are asked for
     std::uint64_t done_ = 0;
 };
 
@@ -122,13 +166,11 @@ DirectLight shoot_direct_light(const SurfaceMesh& mesh, const PatchHierarchy& pa
 }
 
 std::vector<Spectrum> direct_irradiance(const DirectLight& light, std::uint32_t patch_count) {
-    const std::size_t n = light.samples.size();
     std::vector<Spectrum> irradiance(patch_count, Spectrum(0.0f));
     for (std::uint32_t p = 0; p < patch_count; ++p) {
         SpectrumSum sum(0.0);
-        for (std::size_t i = 0; i < n; ++i)
-            sum += SpectrumSum(light.samples[i].emitted) *
-                   (double{light.visibility[p * n + i]} * light.geometry_factor[p * n + i]);
+        for (std::size_t i = 0; i < light.columns(); ++i)
+            sum += SpectrumSum(light.light(i).emitted) * light.share(p, i);
         irradiance[p] = Spectrum(sum);
     }
     return irradiance;

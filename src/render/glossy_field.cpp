@@ -21,6 +21,15 @@ glm::vec3 above_horizon(glm::vec3 d) {
     return length > 0.0f ? d / length : glm::vec3(1.0f, 0.0f, 0.0f);
 }
 
+/// Four sums side by side, as processors add. \pre n is 1 or a multiple of 4
+float sum_of_products(const float* a, const float* b, int n) {
+    if (n == 1) return a[0] * b[0];
+    std::array<float, 4> sum{};
+    for (int k = 0; k < n; k += 4)
+        for (int j = 0; j < 4; ++j) sum[j] += a[k + j] * b[k + j];
+    return (sum[0] + sum[1]) + (sum[2] + sum[3]);
+}
+
 /// What all patches of a side have in common, for the few sides that meet at a leaf.
 class SeenSides {
 public:
@@ -81,13 +90,15 @@ GlossyField GlossyField::with_elements(std::span<const Spectrum> elements) const
 }
 
 void GlossyField::take(std::span<const Spectrum> elements) {
-    bins_.resize(elements.size());
+    bins_.resize(channel_count * elements.size());
     for (const GlossySide& side : solution_->glossy.sides) {
         const auto n = static_cast<std::uint64_t>(side.bins());
         for (std::uint64_t k = 0; k < n; ++k)
-            for (std::uint64_t i = 0; i < side.leaf_count; ++i)
-                bins_[side.first_element + i * n + k] =
-                    glm::vec4(elements[side.first_element + k * side.leaf_count + i], 0.0f);
+            for (std::uint64_t i = 0; i < side.leaf_count; ++i) {
+                const Spectrum& bin = elements[side.first_element + k * side.leaf_count + i];
+                float* const row = &bins_[channel_count * (side.first_element + i * n)];
+                for (int c = 0; c < channel_count; ++c) row[c * n + k] = bin[c];
+            }
     }
     if (grid_) combine_at_vertices();
 }
@@ -107,11 +118,11 @@ void GlossyField::combine_at_vertices() {
         const auto entries = stencils_.at(i / 2, i % 2 != 0);
         if (entries.empty() || !is_plane(entries)) continue;
         vertex_row_[i] = vertex_bins_.size();
-        const int n = solution_->glossy.sides[entries.front().side].bins();
-        vertex_bins_.resize(vertex_bins_.size() + n, glm::vec4(0.0f));
-        glm::vec4* const row = vertex_bins_.data() + vertex_row_[i];
+        const int n = channel_count * solution_->glossy.sides[entries.front().side].bins();
+        vertex_bins_.resize(vertex_bins_.size() + n, 0.0f);
+        float* const row = vertex_bins_.data() + vertex_row_[i];
         for (const VertexStencils::Entry& e : entries) {
-            const glm::vec4* const x = elements_of(e.patch, e.side).bins;
+            const float* const x = elements_of(e.patch, e.side).bins;
             for (int k = 0; k < n; ++k) row[k] += e.weight * x[k];
         }
     }
@@ -152,9 +163,10 @@ Spectrum GlossyField::reflected(const SurfacePoint& p) const {
     return mean(p, [&](const Elements& elements) {
         const SeenSides::Seen& seen = sides.at(elements.side);
         const int n = solution_->glossy.sides[elements.side].bins();
-        glm::vec4 sum(0.0f);
-        for (int k = 0; k < n; ++k) sum += seen.shares[k] * elements.bins[k];
-        return seen.albedo * Spectrum(sum);
+        Spectrum sum;
+        for (int c = 0; c < channel_count; ++c)
+            sum[c] = sum_of_products(seen.shares.data(), elements.bins + c * n, n);
+        return seen.albedo * sum;
     });
 }
 
@@ -167,7 +179,10 @@ Spectrum GlossyField::incoming(const SurfacePoint& p, const glm::dvec3& from) co
             const glm::vec3 in = above_horizon(glm::vec3(from) * frames_[known]);
             bin = bin_at(square_of_direction(in), solution_->glossy.sides[known].bin_level);
         }
-        return Spectrum(elements.bins[bin]);
+        const int n = solution_->glossy.sides[known].bins();
+        Spectrum radiance;
+        for (int c = 0; c < channel_count; ++c) radiance[c] = elements.bins[c * n + bin];
+        return radiance;
     });
 }
 

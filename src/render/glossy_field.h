@@ -9,7 +9,6 @@
 #include <transillum/solution/solution.h>
 
 #include <glm/mat3x3.hpp>
-#include <glm/vec4.hpp>
 
 #include <cstdint>
 #include <span>
@@ -46,15 +45,16 @@ private:
     /// The elements of a patch, or their mean at a vertex about which all is plane.
     struct Elements {
         std::uint32_t side;
-        const glm::vec4* bins;
+        const float* bins;  ///< one channel after the other
     };
     void take(std::span<const Spectrum> elements);
     void combine_at_vertices();
     [[nodiscard]] bool is_plane(std::span<const VertexStencils::Entry> entries) const;
     [[nodiscard]] Elements elements_of(std::uint32_t patch, std::uint32_t side) const {
         const GlossySide& s = solution_->glossy.sides[side];
-        return {side,
-                bins_.data() + s.first_element + std::uint64_t{patch - s.first_patch} * s.bins()};
+        return {side, bins_.data() +
+                          channel_count *
+                              (s.first_element + std::uint64_t{patch - s.first_patch} * s.bins())};
     }
     /// Calls body(elements) -> Spectrum for what a point's value is a mean of; their mean.
     template <class Body>
@@ -65,8 +65,8 @@ private:
     Interpolation interpolation_ = Interpolation::none;
     VertexStencils stencils_;
     std::vector<glm::mat3> frames_;  ///< of the sides
-    std::vector<glm::vec4> bins_;    ///< as the solution's, but all bins of a patch in a row
-    std::vector<glm::vec4> vertex_bins_;
+    std::vector<float> bins_;        ///< as the solution's, but all of a patch in a row
+    std::vector<float> vertex_bins_;
     std::vector<std::uint64_t> vertex_row_;  ///< 2 * vertex + back -> its first bin there, or none
 };
 

@@ -85,7 +85,10 @@ SurfacePoint SolutionShader::point_at(const Hit& hit, const glm::dvec3& directio
     p.within = within_leaf(patches, p.leaf, hit);
     p.brdf = brdf_at(mesh, hit.root, hit.b1, hit.b2);
     if (!solution_.glossy.empty()) p.side = solution_.glossy.find(hit.root, hit.back);
-    if (!p.has_lobe()) return p;
+    if (!p.has_lobe()) {
+        p.world_from_local[2] = p.normal;
+        return p;
+    }
     p.is_sharp = is_sharper_than_bins(p.brdf);
     p.world_from_local =
         p.side ? glossy_.world_from_local(*p.side) : glm::mat3(bin_frame(p.normal));

@@ -16,10 +16,10 @@ struct SurfacePoint {
     glm::dvec3 position{0.0}, normal{0.0, 0.0, 1.0};  ///< of the side that is seen
     Brdf brdf;                                        ///< textures at this very point
     const GlossySide* side = nullptr;                 ///< null where it has no lobe
-    // Where the BRDF has a lobe at this point:
-    glm::mat3 world_from_local{1.0f};  ///< the frame its bins lie in
-    glm::vec3 out{0.0f, 0.0f, 1.0f};   ///< unit, to the eye, local
-    bool is_sharp = false;             ///< its lobe is to be followed by rays: no bin resolves it
+    glm::mat3 world_from_local{1.0f};                 ///< its z is the normal
+    // Where the BRDF has a lobe at this point, that is the frame its bins lie in, and:
+    glm::vec3 out{0.0f, 0.0f, 1.0f};  ///< unit, to the eye, local
+    bool is_sharp = false;            ///< its lobe is to be followed by rays: no bin resolves it
 
     [[nodiscard]] bool has_lobe() const { return brdf.lobe != Lobe::none; }
     [[nodiscard]] glm::vec3 local(const glm::dvec3& direction) const {

@@ -75,6 +75,18 @@ Spectrum evaluate_lobe(const Brdf& brdf, const glm::vec3& in, const glm::vec3& o
     return Spectrum(0.0f);
 }
 
+void evaluate(const Brdf& brdf, std::span<const glm::vec3> in, const glm::vec3& out,
+              std::span<Spectrum> values) {
+    if (brdf.lobe != Lobe::max_phong || !above(out)) {
+        for (std::size_t i = 0; i < in.size(); ++i) values[i] = evaluate(brdf, in[i], out);
+        return;
+    }
+    const Spectrum diffuse = inv_pi * brdf.diffuse;
+    const MaxPhongTowards lobe(brdf.shininess, out);
+    for (std::size_t i = 0; i < in.size(); ++i)
+        values[i] = above(in[i]) ? diffuse + brdf.specular * lobe.value(in[i]) : Spectrum(0.0f);
+}
+
 Spectrum directional_albedo(const Brdf& brdf, float cos_theta) {
     return brdf.diffuse * diffuse_coupling(brdf, cos_theta) + lobe_albedo(brdf, cos_theta);
 }

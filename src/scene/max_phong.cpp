@@ -21,27 +21,6 @@ glm::vec3 mirrored(const glm::vec3& out) {
     return {-out.x, -out.y, out.z};
 }
 
-/// Rounding grows with n, so larger exponents are better taken by logarithms.
-constexpr float largest_whole_power = 64.0f;
-
-float whole_power(float x, int n) {
-    float power = 1.0f;
-    for (; n > 0; n >>= 1, x *= x)
-        if (n & 1) power *= x;
-    return power;
-}
-
-/// cos^n between unit vectors, 0 beyond a right angle. The cosine's distance from 1 is taken from
-/// the vectors' difference: n times the rounding of a dot product would show in sharp lobes.
-float cosine_power(float n, const glm::vec3& a, const glm::vec3& b) {
-    const glm::vec3 difference = a - b;
-    const float below_one = 0.5f * glm::dot(difference, difference);
-    if (!(below_one < 1.0f)) return 0.0f;
-    if (n <= largest_whole_power && n == std::floor(n))
-        return whole_power(1.0f - below_one, static_cast<int>(n));
-    return std::exp(n * std::log1p(-below_one));
-}
-
 /// Mean over the azimuth phi of max(0, min(1, (a + b cos phi) / m)), b >= 0, m > 0.
 double mean_over_azimuth(double a, double b, double m) {
     if (!(b > 0.0)) return std::clamp(a / m, 0.0, 1.0);
@@ -85,7 +64,9 @@ public:
           means_([this](double, double y) { return mean(width_at(y)); }) {}
 
     [[nodiscard]] float at(float width, float cosine) const {
-        return angles_.at(std::log1p(cosine / width) / std::log1p(1.0f / width), row_of(width));
+        // log1p would be no better here, where 1e-7 of a node does not show, but takes its time.
+        return angles_.at(std::log(1.0f + cosine / width) / std::log(1.0f + 1.0f / width),
+                          row_of(width));
     }
     [[nodiscard]] float mean_at(float width) const { return means_.at(0.0f, row_of(width)); }
 
@@ -123,8 +104,7 @@ float width_of(float shininess) {
 }  // namespace
 
 float max_phong_value(float shininess, const glm::vec3& in, const glm::vec3& out) {
-    return (shininess + 2.0f) / (2.0f * pi) * cosine_power(shininess, in, mirrored(out)) /
-           std::max(in.z, out.z);
+    return MaxPhongTowards(shininess, out).value(in);
 }
 
 glm::vec3 sample_max_phong(float shininess, const glm::vec3& out, glm::vec2 u) {
@@ -141,8 +121,9 @@ glm::vec3 sample_max_phong(float shininess, const glm::vec3& out, glm::vec2 u) {
 float max_phong_density(float shininess, const glm::vec3& in, const glm::vec3& out) {
     const glm::vec3 centre = mirrored(out);
     const glm::vec3 below(in.x, in.y, -in.z);
+    const CosinePower power(shininess);
     return (shininess + 1.0f) / (2.0f * pi) *
-           (cosine_power(shininess, in, centre) + cosine_power(shininess, below, centre));
+           (power.of_cosine(in, centre) + power.of_cosine(below, centre));
 }
 
 float max_phong_albedo(float shininess, float cos_theta) {

@@ -29,7 +29,7 @@ void note_decisions(const Solution& s, Monitor& monitor) {
 }
 
 void record_settings(const BakeOptions& o, Solution& s) {
-    const char* const shots[] = {"auto", "off", "hemicube"};
+    const char* const shots[] = {"auto", "off", "hemicube", "vectors"};
     const char* const averagings[] = {"balanced", "paper", "none"};
     const char* const residuals[] = {"auto", "off", "subpatch", "wavefront"};
     s.settings = {

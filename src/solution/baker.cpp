@@ -17,7 +17,11 @@ namespace transillum {
 
 namespace {
 
-void decide_first_shot(const Luminaires& luminaires, FirstShot choice,
+double mebibytes(std::uint64_t bytes) {
+    return static_cast<double>(bytes) * 0x1p-20;
+}
+
+void decide_first_shot(const Luminaires& luminaires, FirstShot choice, std::uint32_t patches,
                        std::vector<Decision>& decisions) {
     const char* const why =
         choice == FirstShot::automatic ? "a small part of the scene's surface" : "asked for";
@@ -33,6 +37,13 @@ void decide_first_shot(const Luminaires& luminaires, FirstShot choice,
                                   : fmt::format("every luminaire is large (up to {:.0f} % of the "
                                                 "surface): cheaper in the iteration",
                                                 100.0 * luminaires.largest_share)});
+    if (luminaires.first_samples.empty()) return;
+    const std::size_t vectors = luminaires.first_samples.size();
+    decisions.push_back(
+        {fmt::format("{} light vector{} a patch, {:.1f} MiB", vectors, vectors == 1 ? "" : "s",
+                     mebibytes(light_vector_bytes(vectors, patches))),
+         fmt::format("asked for; all samples would take {:.1f} MiB",
+                     mebibytes(sample_table_bytes(luminaires.samples.size(), patches)))});
 }
 
 /// How many direction bins patches have, and what they can't hold.
@@ -103,9 +114,8 @@ void Baker::shoot(Solution& s) const {
     LightSampleOptions light = options_.light;
     light.seed = options_.seed;
     const Luminaires luminaires = sample_luminaires(s.surface, light, s.lighting.lights);
-    decide_first_shot(luminaires, light.first_shot, s.decisions);
-    require_memory(estimate_memory(s, luminaires.samples.size(), workers_.count(), band_groups),
-                   options_.memory);
+    decide_first_shot(luminaires, light.first_shot, s.patches.patch_count(), s.decisions);
+    require_memory(estimate_memory(s, luminaires, workers_.count(), band_groups), options_.memory);
     s.direct = shoot_direct_light(s.surface, s.patches, luminaires, options_.hemicube_resolution,
                                   workers_, monitor_);
     s.direct_irradiance = direct_irradiance(s.direct, s.patches.patch_count());

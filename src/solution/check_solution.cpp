@@ -242,6 +242,19 @@ void check_environment(const Environment& environment) {
                   "environment texel");
 }
 
+void check_light_vectors(const DirectLight& direct, std::size_t patches) {
+    const std::vector<std::uint32_t>& first = direct.first_samples;
+    for (std::size_t i = 0; i < first.size(); ++i) {
+        const Place what("light vector", i, "first sample");
+        check_index(first[i], direct.samples.size(), what);
+        if (i == 0) check_count(first[i], 0, what);
+        if (i > 0 && first[i] <= first[i - 1]) throw Defect(what.text() + ": not after the last");
+    }
+    check_count(direct.vectors.size(), patches * first.size(), "light vectors");
+    for (std::size_t i = 0; i < direct.vectors.size(); ++i)
+        check_vector(direct.vectors[i], -infinity, Place("light vectors, entry", i));
+}
+
 void check_direct(const DirectLight& direct, std::size_t roots, std::size_t patches,
                   std::size_t lights) {
     for (std::size_t i = 0; i < direct.samples.size(); ++i) {
@@ -256,7 +269,8 @@ void check_direct(const DirectLight& direct, std::size_t roots, std::size_t patc
         if (sample.kind != LightSample::Kind::area)
             check_index(sample.light, lights, what / "light");
     }
-    const std::size_t entries = patches * direct.samples.size();
+    check_light_vectors(direct, patches);
+    const std::size_t entries = direct.has_vectors() ? 0 : patches * direct.samples.size();
     check_table(direct.geometry_factor, entries, infinity, "geometry factor, entry");
     check_table(direct.visibility, entries, one_and_rounding, "visibility, entry");
     if (!direct.shot_sides.empty()) check_count(direct.shot_sides.size(), 2 * roots, "shot sides");

@@ -14,14 +14,13 @@ constexpr double much_on_sharp_lobes = 0.01;
 /// Flux of lights without extent on the surface; what they send past it nobody misses.
 SpectrumSum arrived_from_lights(const Solution& s) {
     SpectrumSum sum(0.0);
-    const std::size_t n = s.direct.samples.size();
-    for (std::size_t i = 0; i < n; ++i) {
-        if (s.direct.samples[i].kind == LightSample::Kind::area) continue;
+    for (std::size_t i = 0; i < s.direct.columns(); ++i) {
+        if (s.direct.light(i).kind == LightSample::Kind::area) continue;
         double share = 0.0;
         for (std::uint32_t p = 0; p < s.patches.patch_count(); ++p)
             share += area_of_leaf(s.surface, s.patches, s.patches.leaf_of_patch(p)) *
-                     s.direct.geometry_factor[p * n + i] * s.direct.visibility[p * n + i];
-        sum += share * SpectrumSum(s.direct.samples[i].emitted);
+                     s.direct.share(p, i);
+        sum += share * SpectrumSum(s.direct.light(i).emitted);
     }
     return sum;
 }

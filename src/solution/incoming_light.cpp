@@ -20,23 +20,18 @@ glm::vec3 raised(glm::dvec3 direction) {
 void append_incoming_light(const Solution& solution, std::uint32_t patch,
                            std::vector<IncomingLight>& incoming) {
     const DirectLight& light = solution.direct;
-    const std::size_t n = light.samples.size();
-    if (n == 0) return;
+    if (light.columns() == 0) return;
     const std::uint32_t leaf = solution.patches.leaf_of_patch(patch);
     const std::uint32_t root = solution.patches.root_of_leaf[leaf];
     const glm::dvec3 centre = leaf_centre(solution.surface, solution.patches, leaf);
     const glm::dvec3 normal =
         normal_of(solution.surface, root) * (solution.patches.is_back(patch) ? -1.0 : 1.0);
     const glm::dmat3 local_from_world = glm::transpose(bin_frame(normal));
-    for (std::size_t i = 0; i < n; ++i) {
-        const std::size_t entry = patch * n + i;
-        const float factor = light.visibility[entry] * light.geometry_factor[entry];
-        if (!(factor > 0.0f)) continue;
-        const LightSample& sample = light.samples[i];
-        const glm::dvec3 direction = sample.kind == LightSample::Kind::directional
-                                         ? -sample.normal
-                                         : sample.position - centre;
-        incoming.push_back({raised(local_from_world * direction), sample.emitted * factor});
+    for (std::size_t i = 0; i < light.columns(); ++i) {
+        const auto share = static_cast<float>(light.share(patch, i));
+        if (!(share > 0.0f)) continue;
+        incoming.push_back({raised(local_from_world * light.direction(patch, i, centre)),
+                            light.light(i).emitted * share});
     }
 }
 

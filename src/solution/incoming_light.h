@@ -8,7 +8,8 @@
 
 namespace transillum {
 
-/// Appends an entry for every light sample that reaches the patch, as seen from its centre.
+/// Appends an entry for every light sample, or light vector, that reaches the patch, as seen from
+/// its centre.
 void append_incoming_light(const Solution& solution, std::uint32_t patch,
                            std::vector<IncomingLight>& incoming);
 

@@ -1,7 +1,6 @@
 #include "solution/memory_estimate.h"
 
 #include <transillum/base/error.h>
-#include <transillum/first_shot/light_samples.h>
 
 #include <fmt/format.h>
 
@@ -23,14 +22,14 @@ double gibibytes(std::uint64_t bytes) {
 
 }  // namespace
 
-MemoryEstimate estimate_memory(const Solution& solution, std::size_t light_samples, int threads,
+MemoryEstimate estimate_memory(const Solution& solution, const Luminaires& luminaires, int threads,
                                std::uint64_t band_groups) {
     const std::uint64_t patches = solution.patches.patch_count();
     const std::uint64_t elements = solution.glossy.element_count;
     const std::uint64_t converted =
         patches * bytes_a_patch_converted + elements * bytes_an_element_converted;
     return {patches * (bytes_a_patch + bytes_a_patch_and_thread * static_cast<unsigned>(threads)),
-            first_shot_bytes(light_samples, patches), elements * bytes_an_element,
+            first_shot_bytes(luminaires, patches), elements * bytes_an_element,
             band_groups == 0 ? 0
                              : band_groups * (patches * bytes_a_patch_and_group +
                                               elements * bytes_an_element_and_group) +

@@ -1,6 +1,7 @@
 /// What a bake is going to need, before it is taken.
 #pragma once
 
+#include <transillum/first_shot/light_samples.h>
 #include <transillum/solution/solution.h>
 
 #include <cstdint>
@@ -10,7 +11,7 @@ namespace transillum {
 /// [bytes]
 struct MemoryEstimate {
     std::uint64_t patches = 0;     ///< the iteration's sums and results
-    std::uint64_t first_shot = 0;  ///< a table of light samples by patches
+    std::uint64_t first_shot = 0;  ///< tables of light samples or vectors by patches
     std::uint64_t direction_bins = 0;
     std::uint64_t band_groups = 0;  ///< results that are kept of every group of bands
 
@@ -20,7 +21,7 @@ struct MemoryEstimate {
 };
 
 /// \pre the surface, patches and glossy sides are known.
-[[nodiscard]] MemoryEstimate estimate_memory(const Solution& solution, std::size_t light_samples,
+[[nodiscard]] MemoryEstimate estimate_memory(const Solution& solution, const Luminaires& luminaires,
                                              int threads, std::uint64_t band_groups = 0);
 
 /// \throws UsageError saying what needs how much and what to change, where the total exceeds

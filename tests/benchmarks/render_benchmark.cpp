@@ -74,6 +74,7 @@ int main(int count, char** words) {
     for (const Measured& m : solutions) {
         benchmark::RegisterBenchmark((m.name + "/prepare").c_str(),
                                      [&m](benchmark::State& s) { prepare(s, m); })
+            ->MeasureProcessCPUTime()
             ->UseRealTime()
             ->Unit(benchmark::kMillisecond);
         for (const Camera& camera : m.solution.cameras)
@@ -81,6 +82,7 @@ int main(int count, char** words) {
                 benchmark::RegisterBenchmark(
                     (m.name + "/" + camera.name + "/" + view.name).c_str(),
                     [&](benchmark::State& s) { frames(s, m, camera, view); })
+                    ->MeasureProcessCPUTime()
                     ->UseRealTime()
                     ->Unit(benchmark::kMillisecond);
     }

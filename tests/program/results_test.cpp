@@ -78,6 +78,17 @@ TEST_F(Results, AreRefusedWhereTheyWouldTakeTooMuchMemory) {
     EXPECT_NE(o.err.find("accepted: 0.00 in all"), std::string::npos) << o.err;
 }
 
+TEST_F(Results, KeepLightVectorsWhereAskedTo) {
+    const Outcome o = run(std::string("bake ") + cornell +
+                          " -o box.vtm --leaves 200 --iterations 8 --first-shot vectors");
+    ASSERT_EQ(o.exit_code, 0) << o.err;
+    EXPECT_NE(o.err.find("1 light vector a patch"), std::string::npos) << o.err;
+    const Outcome info = run("info box.vtm");
+    EXPECT_NE(info.out.find("light vectors          1 a patch"), std::string::npos) << info.out;
+    EXPECT_EQ(run("render box.vtm -o box.exr --size 8x8 --direct stored").exit_code, 0);
+    EXPECT_EQ(run("render box.vtm -o box.exr --size 8x8 --direct traced").exit_code, 0);
+}
+
 // Mirrors cast light that direction bins can't hold; glossy walls don't.
 TEST_F(Results, SayHowMuchLightMeetsSharpLobes) {
     for (const bool sharp : {false, true}) {

@@ -1,5 +1,5 @@
-/// Direct light of small emitters, kept as incoming radiance (paper §4, "incoming first shot"), and
-/// of lights without extent.
+/// Direct light of small emitters, kept as incoming radiance (paper §4, "incoming first shot") or
+/// as light vectors (its other possibility), and of lights without extent.
 #pragma once
 
 #include <transillum/base/spectrum.h>
@@ -32,11 +32,20 @@ struct LightSample {
     std::uint32_t light = 0;  ///< else: index into Lighting::lights
 };
 
-/// What arrives at the patches from the light samples. Row-major, one row a patch:
-/// entry [patch * samples.size() + sample].
-/// Irradiance of a patch = sum over samples of emitted * visibility * geometry_factor.
+/// What arrives at the patches from the light samples, in one of two ways; both row-major, one row
+/// a patch.
+///   A column a sample: entry [patch * samples.size() + sample] of two tables.
+///   Irradiance of a patch = sum over samples of emitted * visibility * geometry_factor.
+///   A column a luminaire: entry [patch * first_samples.size() + luminaire] of `vectors`.
+///   Irradiance of a patch = sum over luminaires of emitted * length of the vector.
 struct DirectLight {
     std::vector<LightSample> samples;  ///< empty where no emitter needs a first shot
+    /// Of each luminaire, the first of its samples, which all emit alike: ascending from 0. Empty
+    /// unless it is kept as light vectors.
+    std::vector<std::uint32_t> first_samples;
+    /// Points to where the luminaire's light comes from, the mean over its samples by what they
+    /// bring; as long as their visibility * geometry_factor together.
+    std::vector<glm::vec3> vectors;
     /// Patch mean, as if unoccluded, of, cos at the sample, cos' at the patch:
     /// area: area * cos * cos' / r^2, the projected solid angle [sr];
     /// point: PunctualLight::distribution * cos' / r^2 [sr / square scene unit];
@@ -46,7 +55,24 @@ struct DirectLight {
     /// Per root triangle and side (2 * root + back): its emission travels by first shot, so the
     /// iteration leaves it out.
     std::vector<std::uint8_t> shot_sides;
+
+    [[nodiscard]] bool has_vectors() const { return !first_samples.empty(); }
+    [[nodiscard]] std::size_t columns() const {
+        return has_vectors() ? first_samples.size() : samples.size();
+    }
+    /// The column's sample; a luminaire's first, for the kind and emission that all share.
+    [[nodiscard]] const LightSample& light(std::size_t column) const {
+        return samples[has_vectors() ? first_samples[column] : column];
+    }
+    /// Irradiance of a patch by what a column emits.
+    [[nodiscard]] double share(std::size_t patch, std::size_t column) const;
+    /// Where a column's light comes from, seen from a point of the patch. Not unit.
+    [[nodiscard]] glm::dvec3 direction(std::size_t patch, std::size_t column,
+                                       const glm::dvec3& point) const;
 };
+
+/// From a point to a light sample; not unit.
+[[nodiscard]] glm::dvec3 way_to_light(const LightSample& sample, const glm::dvec3& point);
 
 /// What a light sample sends to a point, as if unoccluded.
 struct Incident {

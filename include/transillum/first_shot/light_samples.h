@@ -13,7 +13,8 @@ namespace transillum {
 enum class FirstShot {
     automatic,  ///< small luminaires; large ones are cheaper in the iteration
     off,        ///< none: all light of surfaces travels by iteration
-    hemicube    ///< every emitter
+    hemicube,   ///< every emitter
+    vectors     ///< every emitter, kept as light vectors
 };
 
 struct LightSampleOptions {
@@ -26,14 +27,16 @@ struct LightSampleOptions {
 
 /// Emitting root sides that touch each other and share a material form a luminaire. Samples are
 /// stratified over its area; each stands for an equal piece of it. A light without extent has one
-/// sample; those come last.
+/// sample; those come last. A light vector has one colour: a luminaire along which a texture's
+/// emission varies gets one for every run of samples that emit alike.
 struct Luminaires {
     std::uint32_t count = 0, shot = 0;  ///< all, and those with samples
     double largest_share = 0.0;         ///< of the scene's surface, among those without samples
     std::vector<LightSample> samples;
-    std::vector<std::uint8_t> shot_sides;  ///< see DirectLight
-    std::vector<PunctualLight> lights;     ///< as given: what LightSample::light counts into
-    std::uint64_t seed = 1;                ///< as given, for turning the hemicubes
+    std::vector<std::uint32_t> first_samples;  ///< for light vectors, see DirectLight; else empty
+    std::vector<std::uint8_t> shot_sides;      ///< see DirectLight
+    std::vector<PunctualLight> lights;         ///< as given: what LightSample::light counts into
+    std::uint64_t seed = 1;                    ///< as given, for turning the hemicubes
 };
 
 /// \throws UsageError for a count outside its range.
@@ -45,7 +48,10 @@ struct Luminaires {
 void relight_samples(const SurfaceMesh& mesh, const std::vector<PunctualLight>& lights,
                      std::vector<LightSample>& samples);
 
-/// Memory [bytes] that the samples of a first shot will take on so many patches.
-[[nodiscard]] std::uint64_t first_shot_bytes(std::size_t samples, std::uint64_t patches);
+/// Memory [bytes] that a first shot's tables will take on so many patches, one way and the other.
+[[nodiscard]] std::uint64_t sample_table_bytes(std::size_t samples, std::uint64_t patches);
+[[nodiscard]] std::uint64_t light_vector_bytes(std::size_t vectors, std::uint64_t patches);
+/// As `luminaires` is going to be kept.
+[[nodiscard]] std::uint64_t first_shot_bytes(const Luminaires& luminaires, std::uint64_t patches);
 
 }  // namespace transillum

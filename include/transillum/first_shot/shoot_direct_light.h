@@ -16,7 +16,8 @@ namespace transillum {
 /// light is a transillumination buffer with four pixels across the scene to one along a hemicube's
 /// edge: first fragments are lit. A patch between its pixels' centres is lit where a ray from its
 /// own centre meets nothing. Does not depend on the number of workers. When the monitor wants to
-/// stop, nothing arrives from the samples that were still to come.
+/// stop, nothing arrives from the samples that were still to come. Where the luminaires ask for
+/// light vectors, samples are summed up as they are shot: their tables are never held.
 [[nodiscard]] DirectLight shoot_direct_light(const SurfaceMesh& mesh, const PatchHierarchy& patches,
                                              const Luminaires& luminaires, int hemicube_resolution,
                                              const Workers& workers, Monitor& monitor);

@@ -16,13 +16,13 @@ namespace transillum {
 /// alone. Groups choose themselves where to spend samples.
 class BandRenderer {
 public:
-    /// Needs the memory of as many solutions as there are groups. \throws as SolutionRenderer.
+    /// Needs the memory of as many solutions as there are groups. Keeps a reference to the workers.
+    /// \throws as SolutionRenderer.
     BandRenderer(SpectralSolution spectral, const RenderOptions& options, const Workers& workers,
                  Monitor& monitor);
 
     /// \throws as SolutionRenderer::render.
-    [[nodiscard]] Image render(const Camera& camera, const Workers& workers,
-                               Monitor& monitor);
+    [[nodiscard]] Image render(const Camera& camera, const Workers& workers, Monitor& monitor);
 
 private:
     int bands_;

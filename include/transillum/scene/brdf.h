@@ -15,6 +15,8 @@
 
 #include <glm/vec2.hpp>
 
+#include <span>
+
 namespace transillum {
 
 /// Sharper GGX lobes are taken for this one.
@@ -38,6 +40,11 @@ struct Brdf {
 [[nodiscard]] Spectrum evaluate_diffuse(const Brdf& brdf, const glm::vec3& in,
                                         const glm::vec3& out);
 [[nodiscard]] Spectrum evaluate_lobe(const Brdf& brdf, const glm::vec3& in, const glm::vec3& out);
+
+/// The whole for many directions of light and one of the eye: what they share is worked out once.
+/// \pre values.size() == in.size()
+void evaluate(const Brdf& brdf, std::span<const glm::vec3> in, const glm::vec3& out,
+              std::span<Spectrum> values);
 
 /// Share [1] of light from an angle that is reflected: the whole, and by the lobe alone. From
 /// tables: within 1e-3, and for GGX within 4e-3 where cos theta < 0.02.

@@ -5,29 +5,32 @@
 
 #include <vtkCellData.h>
 
-#include <algorithm>
+#include <cstring>
 
 namespace transillum {
 
 namespace {
 
-void add_rows(vtkFieldData& cells, const char* name, const std::vector<float>& table,
+/// Floats, or vectors of them.
+template <class Value>
+void add_rows(vtkFieldData& cells, const char* name, const std::vector<Value>& table,
               std::size_t columns, const Patches& stored) {
-    float* out = new_array<float>(cells, name, stored.size(), static_cast<int>(columns));
+    const std::size_t parts = columns * part_count<Value>;
+    float* out = new_array<float>(cells, name, stored.size(), static_cast<int>(parts));
     for (const std::uint32_t patch : stored) {
-        out =
-            std::copy_n(table.begin() + static_cast<std::ptrdiff_t>(patch * columns), columns, out);
+        std::memcpy(out, &table[patch * columns], parts * sizeof(float));
+        out += parts;
     }
 }
 
-std::vector<float> read_rows(const ArrayReader& reader, const char* name, std::size_t columns,
+template <class Value>
+std::vector<Value> read_rows(const ArrayReader& reader, const char* name, std::size_t columns,
                              const Patches& stored, std::uint32_t patch_count) {
-    const float* in = reader.find<float>(name, stored.size(), static_cast<int>(columns));
-    std::vector<float> table(patch_count * columns, 0.0f);
-    for (std::size_t i = 0; i < stored.size(); ++i) {
-        std::copy_n(in + i * columns, columns,
-                    table.begin() + static_cast<std::ptrdiff_t>(stored[i] * columns));
-    }
+    const std::size_t parts = columns * part_count<Value>;
+    const float* in = reader.find<float>(name, stored.size(), static_cast<int>(parts));
+    std::vector<Value> table(patch_count * columns, Value(0.0f));
+    for (std::size_t i = 0; i < stored.size(); ++i)
+        std::memcpy(&table[stored[i] * columns], in + i * parts, parts * sizeof(float));
     return table;
 }
 
@@ -37,7 +40,13 @@ PolyData incoming_piece(const Solution& solution, const Patches& stored) {
     PolyData piece = patch_cells(solution, stored);
     vtkCellData& cells = *piece->GetCellData();
     const DirectLight& direct = solution.direct;
-    const std::size_t columns = direct.samples.size();
+    const std::size_t columns = direct.columns();
+    if (direct.has_vectors()) {
+        add_array(*piece->GetFieldData(), "FirstSample", columns,
+                  [&](std::size_t i) { return direct.first_samples[i]; });
+        add_rows(cells, "LightVector", direct.vectors, columns, stored);
+        return piece;
+    }
     add_rows(cells, "GeometryFactor", direct.geometry_factor, columns, stored);
     add_rows(cells, "Visibility", direct.visibility, columns, stored);
     return piece;
@@ -48,9 +57,15 @@ void read_incoming_piece(vtkPolyData& piece, const Path& file, Solution& solutio
     const ArrayReader reader{*piece.GetCellData(), file};
     DirectLight& direct = solution.direct;
     const std::uint32_t rows = solution.patches.patch_count();
-    const std::size_t columns = direct.samples.size();
-    direct.geometry_factor = read_rows(reader, "GeometryFactor", columns, stored, rows);
-    direct.visibility = read_rows(reader, "Visibility", columns, stored, rows);
+    const ArrayReader fields{*piece.GetFieldData(), file};
+    if (fields.has("FirstSample")) direct.first_samples = fields.read<std::uint32_t>("FirstSample");
+    const std::size_t columns = direct.columns();
+    if (direct.has_vectors()) {
+        direct.vectors = read_rows<glm::vec3>(reader, "LightVector", columns, stored, rows);
+        return;
+    }
+    direct.geometry_factor = read_rows<float>(reader, "GeometryFactor", columns, stored, rows);
+    direct.visibility = read_rows<float>(reader, "Visibility", columns, stored, rows);
 }
 
 }  // namespace transillum

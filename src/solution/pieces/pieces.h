@@ -62,7 +62,7 @@ struct Radiances {
 /// Sides that are not stored get zeros. `surface` and `patches` must be there.
 void read_radiance_piece(vtkPolyData& piece, const Path& file, Solution& solution);
 
-/// First-shot light a stored patch and light sample.
+/// First-shot light a stored patch and light sample, or light vector.
 [[nodiscard]] PolyData incoming_piece(const Solution& solution, const Patches& stored);
 /// Light samples, `surface` and `patches` must be there.
 void read_incoming_piece(vtkPolyData& piece, const Path& file, Solution& solution);

@@ -350,9 +350,9 @@ TEST(SampleLuminaires, GivesEveryLightASample) {
 
 TEST(FirstShotBytes, AreWhatItsTablesTake) {
     const Lit lit(room(), three_lights(), {.level = 1, .resolution = 16});
-    EXPECT_EQ(first_shot_bytes(lit.direct.samples.size(), lit.patches.patch_count()),
+    EXPECT_EQ(sample_table_bytes(lit.direct.samples.size(), lit.patches.patch_count()),
               sizeof(float) * (lit.direct.geometry_factor.size() + lit.direct.visibility.size()));
-    EXPECT_EQ(first_shot_bytes(1u << 20, std::uint64_t{1} << 31), std::uint64_t{1} << 54);
+    EXPECT_EQ(sample_table_bytes(1u << 20, std::uint64_t{1} << 31), std::uint64_t{1} << 54);
 }
 
 TEST(IncidentLight, OfAPieceOfASurfaceLeavesItsFrontAlone) {

@@ -90,7 +90,8 @@ TEST(RenderBands, ShowMetamersAlikeUntilTheyReflectEachOther) {
 TEST(RenderBands, OfAPathAreThoseOfASinglePicture) {
     const SpectralSolution s = bake_it(room(0.7f), {8, {}, 0.99f});
     Monitor silent;
-    const BandRenderer renderer(s, small(), Workers(2), silent);
+    const Workers two(2);
+    BandRenderer renderer(s, small(), two, silent);
     const Image a = picture(s), b = renderer.render(camera, Workers(1), silent);
     EXPECT_EQ(a.pixels, b.pixels);
     EXPECT_EQ(a.emitter_mask, b.emitter_mask);

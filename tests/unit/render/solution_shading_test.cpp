@@ -275,6 +275,40 @@ TEST_P(PunctualLightsOnSolutions, ReflectTheirClosedForm) {
         }
 }
 
+/// On every patch as at the origin.
+void turn_into_vectors(Solution& s) {
+    DirectLight& direct = s.direct;
+    direct.geometry_factor.clear();
+    direct.visibility.clear();
+    std::vector<glm::vec3> row;
+    for (const LightSample& light : direct.samples) {
+        direct.first_samples.push_back(static_cast<std::uint32_t>(row.size()));
+        const Incident i = incident_light(light, s.lighting, {0, 0, 0});
+        const double share = i.irradiance.x / light.emitted.x * std::max(0.0, i.direction.z);
+        row.emplace_back(share * i.direction);
+    }
+    for (std::uint32_t p = 0; p < s.patches.patch_count(); ++p)
+        direct.vectors.insert(direct.vectors.end(), row.begin(), row.end());
+}
+
+TEST_P(PunctualLightsOnSolutions, ReflectTheirClosedFormFromLightVectors) {
+    Solution s = dark_solution(floor_of(GetParam()), 1);
+    if (s.glossy.empty()) return;  // shows irradiances
+    s.lighting = punctual_lights();
+    s.direct.samples =
+        sample_luminaires(s.surface, {.first_shot = FirstShot::off}, s.lighting.lights).samples;
+    turn_into_vectors(s);
+    const glm::dvec3 eye(1.6, 0.1, 1.2);
+    const double exact = reflected_of(s.lighting, brdf_of(GetParam()), glm::normalize(eye));
+    for (const bool interpolate : {false, true}) {
+        RenderOptions options;
+        options.components.emission = options.components.finite_element = false;
+        options.direct = DirectShading::stored;
+        options.interpolate = interpolate;
+        EXPECT_NEAR(seen(s, eye, {0, 0, 0}, options).radiance.x, exact, 1e-4 * exact);
+    }
+}
+
 TEST(DirectLightOnSolutions, IsHiddenByWhatStandsBefore) {
     SurfaceBuilder builder;
     const auto m = builder.material(Spectrum(0.0f));
@@ -353,6 +387,14 @@ TEST(Mirror, ShowsLampsOnce) {
         EXPECT_NEAR(seen(s, {x + 0.3, 0.2, 1}, {x, 0, 0}).radiance.x, 5.0f, 5e-3f);
     RenderOptions no_emission;
     no_emission.components.emission = false;
+    EXPECT_EQ(seen(s, {0.3, 0.2, 1}, {0, 0, 0}, no_emission).radiance.x, 0.0f);
+
+    no_emission.direct = DirectShading::stored;
+    EXPECT_EQ(seen(s, {0.3, 0.2, 1}, {0, 0, 0}, no_emission).radiance.x, 0.0f);
+    s.direct.geometry_factor.clear();
+    s.direct.visibility.clear();
+    s.direct.first_samples = {0};
+    s.direct.vectors.assign(s.patches.patch_count(), {0.0f, 0.0f, 0.5f});
     EXPECT_EQ(seen(s, {0.3, 0.2, 1}, {0, 0, 0}, no_emission).radiance.x, 0.0f);
 }
 

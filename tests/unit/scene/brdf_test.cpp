@@ -132,6 +132,23 @@ TEST(Ggx, ReflectsAlongTheNormalWhatItsClosedFormSays) {
                     0.04 + 0.96 * std::pow(1.0 - c, 5.0), table_error);
 }
 
+TEST_P(AnyBrdf, OfManyDirectionsIsThatOfEach) {
+    const Brdf& brdf = GetParam().brdf;
+    std::vector<glm::vec3> in;
+    for (int i = 0; i < 200; ++i)
+        in.push_back(glm::normalize(glm::dvec3(std::cos(i), std::sin(2 * i), 0.01 * i - 0.1)));
+    for (const glm::vec3 out : {glm::vec3(0, 0, 1), glm::vec3(0.6, 0, 0.8), glm::vec3(1, 0, 0)}) {
+        in.front() = {-out.x, -out.y, out.z};
+        std::vector<Spectrum> values(in.size(), Spectrum(-1.0f));
+        evaluate(brdf, in, out, values);
+        for (std::size_t i = 0; i < in.size(); ++i) {
+            const Spectrum each = evaluate(brdf, in[i], out);
+            for (int c = 0; c < channel_count; ++c)
+                ASSERT_NEAR(values[i][c], each[c], 4 * 0x1p-24f * each[c]);
+        }
+    }
+}
+
 TEST_P(AnyBrdf, IsReciprocal) {
     Random random(1, 0);
     for (int i = 0; i < 1000; ++i) {

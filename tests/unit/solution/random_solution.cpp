@@ -166,6 +166,8 @@ void add_lights(Dice& dice, const Shape& shape, Solution& solution) {
             sample.kind = static_cast<LightSample::Kind>(1 + dice.below(2));
             sample.light = static_cast<std::uint32_t>(i);
         }
+        if (shape.light_vectors && i % 2 == 0)
+            solution.direct.first_samples.push_back(static_cast<std::uint32_t>(i));
         solution.direct.samples.push_back(sample);
     }
     for (std::size_t i = 0; i < 2 * roots && shape.light_samples > 0; ++i) {
@@ -189,7 +191,9 @@ void light_patch(Dice& dice, const Shape& shape, Solution& solution, std::uint32
         solution.spatial_error.push_back(share());
         solution.directional_error.push_back(share());
     }
-    for (int i = 0; i < shape.light_samples; ++i) {
+    for (std::size_t i = 0; i < solution.direct.first_samples.size(); ++i)
+        solution.direct.vectors.push_back(keeps_zeros ? glm::vec3(0.0f) : dice.spectrum() - 0.5f);
+    for (int i = 0; i < shape.light_samples && !shape.light_vectors; ++i) {
         solution.direct.geometry_factor.push_back(share());
         solution.direct.visibility.push_back(share());
     }
@@ -305,7 +309,9 @@ void expect_equal(const SurfaceMesh& a, const SurfaceMesh& b) {
 }
 
 void expect_equal(const DirectLight& a, const DirectLight& b) {
-    const auto& [samples, geometry_factor, visibility, shot_sides] = a;
+    const auto& [samples, first_samples, vectors, geometry_factor, visibility, shot_sides] = a;
+    EXPECT_EQ(first_samples, b.first_samples);
+    EXPECT_EQ(vectors, b.vectors);
     expect_equal_structs(samples, b.samples);
     EXPECT_EQ(geometry_factor, b.geometry_factor);
     EXPECT_EQ(visibility, b.visibility);

@@ -13,6 +13,7 @@ struct Shape {
     std::vector<int> levels{0, 2, 1};  ///< one a root
     int splits = 0;                    ///< rounds of splitting leaves at random after that
     int light_samples = 3;
+    bool light_vectors = false;  ///< instead of tables, one for every two samples
     int cameras = 2;
     bool uvs = false;  ///< and textures
     bool one_sided = false;

@@ -62,6 +62,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Shape{.levels = {4, 0, 0, 1, 5, 2}, .light_samples = 40, .uvs = true},
                     Shape{.light_samples = 5, .lights = 5, .environment = Environment::Kind::clear},
                     Shape{.lights = 2, .environment = Environment::Kind::image},
+                    Shape{.light_samples = 5, .light_vectors = true, .lights = 3},
                     Shape{.lit = false}, Shape{.levels = {}, .light_samples = 0},
                     Shape{.splits = 3, .norms = true}, Shape{.splits = 4, .lit = false},
                     Shape{.levels = {0, 3, 0, 1, 5, 0}, .splits = 2, .light_samples = 1}));
@@ -170,6 +171,28 @@ TEST(Solution, ContradictoryTreesAreNotSaved) {
         spoil(solution.patches);
         try {
             save_solution(solution, {}, path);
+            ADD_FAILURE() << message;
+        } catch (const Error& error) {
+            EXPECT_THAT(error.what(), testing::HasSubstr(message));
+        }
+    }
+}
+
+TEST(Solution, UnsoundLightVectorsAreNotSaved) {
+    const std::vector<std::pair<std::string, void (*)(DirectLight&)>> defects{
+        {"light vector 0 first sample", [](DirectLight& d) { d.first_samples[0] = 1; }},
+        {"light vector 1 first sample: not after", [](DirectLight& d) { d.first_samples[1] = 0; }},
+        {"light vector 1 first sample: index 3 of 3",
+         [](DirectLight& d) { d.first_samples[1] = 3; }},
+        {"light vectors: ", [](DirectLight& d) { d.vectors.pop_back(); }},
+        {"light vectors, entry 2",
+         [](DirectLight& d) { d.vectors[2].z = std::numeric_limits<float>::infinity(); }},
+        {"visibility, entry", [](DirectLight& d) { d.visibility.push_back(0.5f); }}};
+    for (const auto& [message, spoil] : defects) {
+        Solution solution = random_solution({.light_vectors = true}, 1);
+        spoil(solution.direct);
+        try {
+            save_solution(solution, {}, fresh_folder() / "room.vtm");
             ADD_FAILURE() << message;
         } catch (const Error& error) {
             EXPECT_THAT(error.what(), testing::HasSubstr(message));

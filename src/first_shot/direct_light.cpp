@@ -1,0 +1,23 @@
+#include <transillum/first_shot/direct_light.h>
+
+#include <glm/geometric.hpp>
+
+namespace transillum {
+
+glm::dvec3 way_to_light(const LightSample& sample, const glm::dvec3& point) {
+    return sample.kind == LightSample::Kind::directional ? -sample.normal : sample.position - point;
+}
+
+double DirectLight::share(std::size_t patch, std::size_t column) const {
+    const std::size_t entry = patch * columns() + column;
+    return has_vectors() ? glm::length(glm::dvec3(vectors[entry]))
+                         : double{visibility[entry]} * geometry_factor[entry];
+}
+
+glm::dvec3 DirectLight::direction(std::size_t patch, std::size_t column,
+                                  const glm::dvec3& point) const {
+    if (has_vectors()) return vectors[patch * columns() + column];
+    return way_to_light(samples[column], point);
+}
+
+}  // namespace transillum
