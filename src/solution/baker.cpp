@@ -110,12 +110,20 @@ std::shared_ptr<const IterationSums> Baker::transport(
     return sums;
 }
 
+double Baker::pixel_size(const Solution& s) const {
+    return options_.resolution > 0 ? pixel_size_for(s.surface, options_.resolution)
+                                   : automatic_pixel_size(s.surface, s.patches);
+}
+
 void Baker::shoot(Solution& s) const {
     LightSampleOptions light = options_.light;
     light.seed = options_.seed;
     const Luminaires luminaires = sample_luminaires(s.surface, light, s.lighting.lights);
     decide_first_shot(luminaires, light.first_shot, s.patches.patch_count(), s.decisions);
-    require_memory(estimate_memory(s, luminaires, workers_.count(), band_groups), options_.memory);
+    MemoryEstimate needed = estimate_memory(s, luminaires, workers_.count(), band_groups);
+    needed.monte_carlo = monte_carlo_bytes(options_.iteration.monte_carlo, s.surface, s.patches,
+                                           pixel_size(s), workers_.count());
+    require_memory(needed, options_.memory);
     s.direct = shoot_direct_light(s.surface, s.patches, luminaires, options_.hemicube_resolution,
                                   workers_, monitor_);
     s.direct_irradiance = direct_irradiance(s.direct, s.patches.patch_count());
@@ -129,8 +137,7 @@ std::shared_ptr<const IterationSums> Baker::iterate_on(
     iteration.seed = options_.seed;
     iteration.start = std::move(start);
     iteration.keep_sums = options_.refinement.phases > 0;
-    iteration.pixel_size = options_.resolution > 0 ? pixel_size_for(s.surface, options_.resolution)
-                                                   : automatic_pixel_size(s.surface, s.patches);
+    iteration.pixel_size = pixel_size(s);
     const PatchSources sources = make_sources(s);
     if (!shines(sources)) {
         iteration.iterations = 0;

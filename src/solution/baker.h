@@ -38,6 +38,7 @@ public:
     std::uint64_t band_groups = 0;  ///< whose results are to be kept, for the estimate of memory
 
 private:
+    [[nodiscard]] double pixel_size(const Solution& solution) const;
     void shoot(Solution& solution) const;
     std::shared_ptr<const IterationSums> iterate_on(
         Solution& solution, std::uint64_t iterations,

@@ -29,7 +29,7 @@ MemoryEstimate estimate_memory(const Solution& solution, const Luminaires& lumin
     const std::uint64_t converted =
         patches * bytes_a_patch_converted + elements * bytes_an_element_converted;
     return {patches * (bytes_a_patch + bytes_a_patch_and_thread * static_cast<unsigned>(threads)),
-            first_shot_bytes(luminaires, patches), elements * bytes_an_element,
+            first_shot_bytes(luminaires, patches), elements * bytes_an_element, 0,
             band_groups == 0 ? 0
                              : band_groups * (patches * bytes_a_patch_and_group +
                                               elements * bytes_an_element_and_group) +
@@ -39,9 +39,14 @@ MemoryEstimate estimate_memory(const Solution& solution, const Luminaires& lumin
 void require_memory(const MemoryEstimate& e, std::uint64_t limit) {
     if (limit == 0 || e.total() <= limit) return;
     throw UsageError(fmt::format(
-        "memory: {:.2f} GiB for patches, {:.2f} for light samples, {:.2f} for direction bins{}; "
-        "accepted: {:.2f} in all. Fewer leaves, light samples or direction bins need less",
+        "memory: {:.2f} GiB for patches, {:.2f} for light samples, {:.2f} for direction bins{}{}; "
+        "accepted: {:.2f} in all. Fewer leaves, light samples or direction bins need less, light "
+        "vectors (--first-shot "
+        "vectors) less than samples",
         gibibytes(e.patches), gibibytes(e.first_shot), gibibytes(e.direction_bins),
+        e.monte_carlo == 0
+            ? ""
+            : fmt::format(", {:.2f} for the Monte-Carlo component", gibibytes(e.monte_carlo)),
         e.band_groups == 0 ? "" : fmt::format(", {:.2f} for bands", gibibytes(e.band_groups)),
         gibibytes(limit)));
 }

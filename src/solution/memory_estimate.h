@@ -13,14 +13,15 @@ struct MemoryEstimate {
     std::uint64_t patches = 0;     ///< the iteration's sums and results
     std::uint64_t first_shot = 0;  ///< tables of light samples or vectors by patches
     std::uint64_t direction_bins = 0;
+    std::uint64_t monte_carlo = 0;  ///< what is carried from bundle to bundle
     std::uint64_t band_groups = 0;  ///< results that are kept of every group of bands
 
     [[nodiscard]] std::uint64_t total() const {
-        return patches + first_shot + direction_bins + band_groups;
+        return patches + first_shot + direction_bins + monte_carlo + band_groups;
     }
 };
 
-/// \pre the surface, patches and glossy sides are known.
+/// All but the Monte-Carlo component. \pre the surface, patches and glossy sides are known.
 [[nodiscard]] MemoryEstimate estimate_memory(const Solution& solution, const Luminaires& luminaires,
                                              int threads, std::uint64_t band_groups = 0);
 

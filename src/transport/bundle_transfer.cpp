@@ -9,8 +9,36 @@ namespace {
 /// A residual is cut off above so many times what any patch sends: its peaks take bits from all
 /// else.
 constexpr float most_headroom = 64.0f;
+/// From so many leaves on, quarters of all of them cost more than a whole buffer (paper §3.1.2).
+constexpr std::uint32_t most_leaves_for_subpatch = 100'000;
 
 }  // namespace
+
+MonteCarlo representation_of(MonteCarlo monte_carlo, const PatchHierarchy& patches) {
+    if (monte_carlo != MonteCarlo::automatic) return monte_carlo;
+    return patches.leaf_count < most_leaves_for_subpatch ? MonteCarlo::subpatch
+                                                         : MonteCarlo::wavefront;
+}
+
+std::uint64_t monte_carlo_bytes(MonteCarlo monte_carlo, const SurfaceMesh& mesh,
+                                const PatchHierarchy& patches, double pixel_size, int threads) {
+    const auto workers = static_cast<std::uint64_t>(threads);
+    const std::uint64_t of_patches = patches.patch_count() * std::uint64_t{64};
+    switch (representation_of(monte_carlo, patches)) {
+        case MonteCarlo::subpatch:
+            return of_patches + 4 * std::uint64_t{patches.patch_count()} * (48 + 32 * workers);
+        case MonteCarlo::wavefront: {
+            // A direction sees half of the area, on average; two buffers of points, with room.
+            double area = 0.0;
+            for (std::uint32_t r = 0; r < mesh.triangles.size(); ++r) area += area_of(mesh, r);
+            const double points = 0.5 * area / (pixel_size * pixel_size);
+            return of_patches + patches.patch_count() * 64 * workers +
+                   static_cast<std::uint64_t>(2.0 * 1.5 * 32.0 * points);
+        }
+        default:
+            return 0;
+    }
+}
 
 BundleTransfer::BundleTransfer(const SurfaceMesh& mesh, const PatchHierarchy& patches,
                                double pixel_size, std::uint64_t seed, const Workers& workers)

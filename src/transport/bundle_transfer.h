@@ -11,6 +11,9 @@
 
 namespace transillum {
 
+/// What automatic comes to.
+[[nodiscard]] MonteCarlo representation_of(MonteCarlo monte_carlo, const PatchHierarchy& patches);
+
 class BundleTransfer {
 public:
     /// Keeps references.

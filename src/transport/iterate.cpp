@@ -40,8 +40,6 @@ constexpr std::uint64_t longest_block = 1024;
 /// The Monte-Carlo component is carried from here on: earlier, elements are mostly noise. Where
 /// that is automatic, the same number of directions again tells whether it is worth it.
 constexpr std::uint64_t first_carried = 128;
-/// From so many leaves on, quarters of all of them cost more than a whole buffer (paper §3.1.2).
-constexpr std::uint32_t most_leaves_for_subpatch = 100'000;
 
 /// Directions until the estimate is refreshed: one at a time up to 8, then four blocks an octave.
 std::uint64_t block_length(std::uint64_t done, Averaging averaging) {
@@ -167,9 +165,7 @@ private:
         representation_ = options_.monte_carlo;
         if (all && representation_ != MonteCarlo::wavefront) representation_ = MonteCarlo::subpatch;
         if (representation_ == MonteCarlo::automatic) {
-            representation_ = patches_.leaf_count < most_leaves_for_subpatch
-                                  ? MonteCarlo::subpatch
-                                  : MonteCarlo::wavefront;
+            representation_ = representation_of(representation_, patches_);
             effect_.emplace(patches_.leaf_count);
             effect_begin_ = done_;
         }

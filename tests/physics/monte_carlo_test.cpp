@@ -197,6 +197,21 @@ TEST_P(Carried, AloneIsPlainIteration) {
     EXPECT_NEAR(cube.mean_incoming(all_fronts) * 6.0 * 0.5, 1.0, 0.05);
 }
 
+TEST(MonteCarloMemory, FollowsWhatIsKept) {
+    const TransportRun room = prepare_transport(cube_scene(0.5f, 1.0f, 0.0f), {.leaves = 400});
+    const auto bytes = [&](MonteCarlo monte_carlo, double pixel_size, int threads) {
+        return monte_carlo_bytes(monte_carlo, room.surface, room.patches, pixel_size, threads);
+    };
+    EXPECT_EQ(bytes(MonteCarlo::off, 0.01, 2), 0u);
+    EXPECT_EQ(bytes(MonteCarlo::subpatch, 0.01, 2), bytes(MonteCarlo::subpatch, 0.001, 2));
+    EXPECT_EQ(bytes(MonteCarlo::automatic, 0.01, 2), bytes(MonteCarlo::subpatch, 0.01, 2));
+    EXPECT_GT(bytes(MonteCarlo::subpatch, 0.01, 4), bytes(MonteCarlo::subpatch, 0.01, 2));
+    // The cube's 6 squares under half their area, 32 bytes a point, twice and half as much again.
+    const double finer = static_cast<double>(bytes(MonteCarlo::wavefront, 0.001, 2)) -
+                         static_cast<double>(bytes(MonteCarlo::wavefront, 0.01, 2));
+    EXPECT_NEAR(finer, 96.0 * 3.0 * (1e6 - 1e4), 100.0);
+}
+
 TEST(MonteCarloOff, LeavesNoNorms) {
     const TransportRun run = run_transport(cube_scene(0.6f, 1.0f, 0.0f), {});
     EXPECT_EQ(run.result.carried, 0u);

@@ -35,6 +35,11 @@ enum class MonteCarlo {
     wavefront  ///< in the last transillumination buffer (§3.1.1)
 };
 
+/// Memory [bytes] that carrying it will take.
+[[nodiscard]] std::uint64_t monte_carlo_bytes(MonteCarlo monte_carlo, const SurfaceMesh& mesh,
+                                              const PatchHierarchy& patches, double pixel_size,
+                                              int threads);
+
 /// What an iteration has summed up, for another to go on from.
 struct IterationSums;
 
