@@ -325,23 +325,22 @@ TEST_F(CarriedResidual, OfLambertSurfacesDependsOnNoEye) {
 TEST_F(CarriedResidual, StartsFromPlainFiniteElements) {
     const Solution s = glossy_block();
     const Image plain = picture(s, in_the_room, gathering(off, 1));
-    const Image exact = picture(s, in_the_room, gathering(subpatch, 2048));
+    const Image exact = picture(s, in_the_room, gathering(subpatch, 512));
     const double error = compare_images(plain, exact).relative_rmse;
     EXPECT_LT(compare_images(last_of(s, {in_the_room}, 1), exact).relative_rmse, 1.1 * error);
-    EXPECT_LT(compare_images(last_of(s, {in_the_room}, 256), exact).relative_rmse, 0.5 * error);
+    EXPECT_LT(compare_images(last_of(s, {in_the_room}, 128), exact).relative_rmse, 0.5 * error);
 }
 
-/// What a lobe showed to an eye far off is forgotten, but by as much as both eyes' lobes share.
+/// The same bundles seen before from nearby tell nearly as much as seen from here; from across, a
+/// lobe's part in them is forgotten.
 TEST_F(CarriedResidual, OfALobeIsForgottenAsTheEyeTurns) {
     const Solution s = glossy_block();
     const Camera nearby = camera_at({0.105, 0.125, 0.8}, {0.6, 0.6, 0.2}, 70.0);
     const Camera across = camera_at({0.9, 0.88, 0.8}, {0.4, 0.4, 0.2}, 70.0);
-    const Image exact = picture(s, in_the_room, gathering(subpatch, 2048));
-    const auto error_after = [&](const Camera& first) {
-        return compare_images(last_of(s, {first, in_the_room}, 256), exact).relative_rmse;
-    };
-    EXPECT_LT(error_after(nearby), 1.05 * error_after(in_the_room));
-    EXPECT_GT(error_after(across), error_after(in_the_room));
+    const Image stayed = last_of(s, {in_the_room, in_the_room}, 16);
+    const double from_nearby = largest_difference(last_of(s, {nearby, in_the_room}, 16), stayed);
+    const double from_across = largest_difference(last_of(s, {across, in_the_room}, 16), stayed);
+    EXPECT_LT(from_nearby, 0.25 * from_across);
 }
 
 }  // namespace
