@@ -9,8 +9,8 @@
 // times the bundles it stood for, width being the standard deviation of the lobe: 1 / sqrt(n) of
 // cos^n, a Gaussian of variance 1 / n. An exponential, so that a turn costs the same in one step or
 // in many. A still eye thus goes on averaging, and a moving one forgets as fast as it turns.
-// Where few bundles are known their noise would flicker, so that a residual r of w bundles is shown
-// as w / (w + w0) r: fast walks fade to plain finite elements.
+// Cells start from a residual of zero, plain finite elements, that counts for prior_bundles: of a
+// few bundles their noise alone would show, and flicker where a fast walk forgets all others.
 #include "render/bundle_sums.h"
 #include "render/surface_at.h"
 
@@ -26,6 +26,9 @@ namespace transillum {
 namespace {
 
 constexpr std::size_t grain = 1024;
+/// The mean square of one bundle's noise over that of the residual: 23 was measured in a glossy box
+/// of 14000 patches, 33 in a Lambert one of 2000.
+constexpr float prior_bundles = 32.0f;
 
 /// What a cell is known to show towards an eye beyond its elements, of a lobe of albedo 1.
 struct LobeMemory {
@@ -191,8 +194,10 @@ private:
         p.leaf = leaf_of_[cells_.leaf_of_patch(cell)];
         p.patch = p.leaf + (cells_.is_back(cell) ? solution_.patches.leaf_count : 0);
         p.within = within_leaf(solution_.patches, p.leaf, centre);
-        Shown shown{Spectrum(arrived_[cell] / static_cast<double>(bundles_)) - held.at(p), {}};
-        if (!lobes_.empty() && lobes_[cell].bundles > 0.0f) shown.lobe = lobes_[cell].residual;
+        const auto trust = [](float bundles) { return bundles / (bundles + prior_bundles); };
+        const Spectrum arrived(arrived_[cell] / static_cast<double>(bundles_));
+        Shown shown{trust(static_cast<float>(bundles_)) * (arrived - held.at(p)), {}};
+        if (!lobes_.empty()) shown.lobe = trust(lobes_[cell].bundles) * lobes_[cell].residual;
         return shown;
     }
 

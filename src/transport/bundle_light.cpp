@@ -80,17 +80,29 @@ struct BundleLight::State {
             patches.roots[root].first_leaf + (back ? patches.leaf_count : 0);
         for (std::uint32_t p = first; p < first + patches.leaves_of(root); ++p) {
             const std::uint32_t slot = slot_of_patch(p, patches.leaf_count);
-            // Patches seen edge-on may lie between all pixels' centres.
             if (!(transfer.residual()->arrived(slot).coverage > 0.0f))
-                transfer.residual()->assume(
-                    slot, side ? given_elements[side->element(bin, p)]
-                               : std::numbers::inv_pi_v<float> * given_irradiance[p]);
+                guess(p, side ? given_elements[side->element(bin, p)]
+                              : std::numbers::inv_pi_v<float> * given_irradiance[p]);
             const Spectrum mean = transfer.residual()->arrived(slot).radiance;
             irradiance[p] += SpectrumSum(twice_cosine * mean);
             if (side)
                 glossy[side->element(bin, p)] +=
                     twice_cosine * static_cast<float>(side->bins()) * mean;
         }
+    }
+
+    /// Patches that are small or seen edge-on may lie between all pixels' centres.
+    /// \param known where there is no sample nearby
+    void guess(std::uint32_t patch, const Spectrum& known) {
+        const std::uint32_t leaf = patches.leaf_of_patch(patch);
+        const auto [corners, level] = leaf_corners(patches, leaf);
+        const glm::vec2 b = glm::vec2(corners[0] + corners[1] + corners[2]) /
+                            (3.0f * static_cast<float>(1 << level));
+        const SurfaceSide centre{patches.root_of_leaf[leaf], patches.is_back(patch), b.x, b.y,
+                                 leaf_centre(mesh, patches, leaf)};
+        const std::uint32_t slot = slot_of_patch(patch, patches.leaf_count);
+        transfer.residual()->assume(slot, known);
+        transfer.residual()->assume(slot, transfer.residual()->incoming(centre));
     }
 
     std::span<const Spectrum> given_irradiance, given_elements;

@@ -6,6 +6,8 @@
 
 #include <transillum/render/render_solution.h>
 #include <transillum/solution/bake.h>
+#include <transillum/solution/patch_sources.h>
+#include <transillum/transport/bundle_light.h>
 
 #include <gtest/gtest.h>
 
@@ -258,6 +260,39 @@ TEST_P(Gather, DarknessStaysDark) {
         EXPECT_EQ(p, Spectrum(0.0f));
 }
 
+/// Patches smaller than a pixel, most of them between pixels' centres along most bundles: what they
+/// are told to receive is what arrives at points on them. The floor emits, so that directions
+/// differ.
+TEST_P(Gather, SmallPatchesReceiveWhatTheirPointsDo) {
+    SceneBuilder b;
+    const auto lamp = b.material(Spectrum(0.0f), Spectrum(1.0f));
+    b.box({0, 0, 0}, {1, 1, 1}, Facing::inwards, 0, 0);
+    b.polygon({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, lamp);
+    Solution s = uniformly_lit(b.surface(), 6);
+    const PatchSources sources = make_sources(s);
+    const Workers workers(2);
+    BundleLight light(
+        s.surface, s.patches, sources, s.indirect_irradiance, s.glossy_elements,
+        {GetParam() == subpatch ? MonteCarlo::subpatch : MonteCarlo::wavefront, 0.03, 1}, workers);
+    double at_points = 0.0, of_patches = 0.0;
+    for (int i = 0; i < 32; ++i) {
+        light.next();
+        for (std::uint32_t leaf = 0; leaf < s.patches.leaf_count; leaf += 7) {
+            const std::uint32_t root = s.patches.root_of_leaf[leaf];
+            const auto [corners, level] = leaf_corners(s.patches, leaf);
+            const glm::vec2 at = glm::vec2(corners[0] + corners[1] + corners[2]) /
+                                 (3.0f * static_cast<float>(1 << level));
+            const double cosine = std::abs(glm::dot(normal_of(s.surface, root), light.direction()));
+            at_points +=
+                cosine *
+                light.incoming({root, false, at.x, at.y, leaf_centre(s.surface, s.patches, leaf)})
+                    .x;
+            of_patches += cosine * light.mean_incoming(leaf).x;
+        }
+    }
+    EXPECT_NEAR(at_points, of_patches, 5e-3 * of_patches);
+}
+
 class CarriedResidual : public testing::Test {
 protected:
     /// The last of pictures one after the other.
@@ -284,6 +319,28 @@ TEST_F(CarriedResidual, OfLambertSurfacesDependsOnNoEye) {
     const Camera here = camera_at({0.3, 0.2, 0.9}, {0, 0, 0}, 80.0);
     const Camera elsewhere = camera_at({-1.5, 1.5, 0.5}, {-1, 1, 0}, 30.0);
     EXPECT_LT(largest_difference(last_of(s, {here}, 16), last_of(s, {elsewhere, here}, 8)), 2e-5);
+}
+
+/// A few bundles bring mostly noise, of which next to nothing is shown.
+TEST_F(CarriedResidual, StartsFromPlainFiniteElements) {
+    const Solution s = glossy_block();
+    const Image plain = picture(s, in_the_room, gathering(off, 1));
+    const Image exact = picture(s, in_the_room, gathering(subpatch, 512));
+    const double error = compare_images(plain, exact).relative_rmse;
+    EXPECT_LT(compare_images(last_of(s, {in_the_room}, 1), exact).relative_rmse, 1.1 * error);
+    EXPECT_LT(compare_images(last_of(s, {in_the_room}, 128), exact).relative_rmse, 0.5 * error);
+}
+
+/// The same bundles seen before from nearby tell nearly as much as seen from here; from across, a
+/// lobe's part in them is forgotten.
+TEST_F(CarriedResidual, OfALobeIsForgottenAsTheEyeTurns) {
+    const Solution s = glossy_block();
+    const Camera nearby = camera_at({0.105, 0.125, 0.8}, {0.6, 0.6, 0.2}, 70.0);
+    const Camera across = camera_at({0.9, 0.88, 0.8}, {0.4, 0.4, 0.2}, 70.0);
+    const Image stayed = last_of(s, {in_the_room, in_the_room}, 16);
+    const double from_nearby = largest_difference(last_of(s, {nearby, in_the_room}, 16), stayed);
+    const double from_across = largest_difference(last_of(s, {across, in_the_room}, 16), stayed);
+    EXPECT_LT(from_nearby, 0.25 * from_across);
 }
 
 }  // namespace

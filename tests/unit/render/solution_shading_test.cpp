@@ -428,7 +428,12 @@ protected:
     }
     static constexpr int size = 24;
     static Image rendered(bool monte_carlo, std::uint64_t seed = 1, int iterations = 64) {
-        RenderOptions options = with_monte_carlo(monte_carlo);
+        return rendered(monte_carlo ? MonteCarloShading::rays : MonteCarloShading::off, seed,
+                        iterations);
+    }
+    static Image rendered(MonteCarloShading how, std::uint64_t seed, int iterations) {
+        RenderOptions options;
+        options.monte_carlo = how;
         options.iterations = iterations;
         options.width = options.height = size;
         options.seed = seed;
@@ -471,6 +476,18 @@ TEST_F(GlossyRoom, IsCorrectedByTheMonteCarloComponent) {
     const double corrected = compare_images(rendered(true, 1, 1024), reference).relative_rmse;
     EXPECT_LT(corrected, 0.5 * rough)
         << "noise " << noise << ", finite elements " << rough << ", with rays " << corrected;
+}
+
+/// Likewise by one reflection of what elements hold; what they hold stays as it is, and sub-patches
+/// show it no finer than they are.
+TEST_F(GlossyRoom, IsCorrectedByBundles) {
+    const Image reference = traced(1, 1024);
+    const double rough = compare_images(rendered(false), reference).relative_rmse;
+    using enum MonteCarloShading;
+    for (const auto how : {subpatch, wavefront}) {
+        const double corrected = compare_images(rendered(how, 1, 1024), reference).relative_rmse;
+        EXPECT_LT(corrected, 0.6 * rough) << "wavefront " << (how == wavefront);
+    }
 }
 
 TEST_F(GlossyRoom, DoesNotDependOnTheNumberOfThreads) {
