@@ -228,7 +228,7 @@ TEST_F(Results, HelpSaysTheDefaults) {
     const std::pair<const char*, std::vector<const char*>> expected[] = {
         {"bake",
          {"--iterations", "=1024", "--max-level", "=8", "--max-albedo", "=0.99",
-          "--averaging balanced|paper=balanced"}},
+          "--averaging balanced|none|paper=balanced"}},
         {"render",
          {"--size WxH=500x500", "--samples", "=16", "--direct stored|traced=traced",
           "--monte-carlo auto|off|rays|subpatch|wavefront=auto"}},

@@ -10,7 +10,7 @@ using namespace transillum;
 using namespace transillum::testing_support;
 
 /// A glossy square of two roots, with bins one level deeper than those in question.
-class Square : public testing::Test {
+class GlossySquare : public testing::Test {
 protected:
     void make(float shininess, int level) {
         SceneBuilder b;
@@ -39,14 +39,14 @@ protected:
     std::vector<Spectrum> elements_;
 };
 
-TEST_F(Square, LeavesUniformLightWhole) {
+TEST_F(GlossySquare, LeavesUniformLightWhole) {
     for (const int level : {0, 1, 2}) {
         make(10.0f, level);
         EXPECT_EQ(divided(1e-3), 0u);
     }
 }
 
-TEST_F(Square, DividesWhereQuartersDiffer) {
+TEST_F(GlossySquare, DividesWhereQuartersDiffer) {
     for (const int level : {0, 1, 2}) {
         make(10.0f, level);
         // Light from one bin: the first of its four.
@@ -63,7 +63,7 @@ TEST_F(Square, DividesWhereQuartersDiffer) {
 }
 
 // The same light, but the lobe is too wide to tell where in the bin it comes from.
-TEST_F(Square, DividesForSharpLobesFirst) {
+TEST_F(GlossySquare, DividesForSharpLobesFirst) {
     const auto largest_tolerance = [&](float shininess) {
         make(shininess, 1);
         for (const GlossySide& s : glossy_.sides)
@@ -78,7 +78,7 @@ TEST_F(Square, DividesForSharpLobesFirst) {
     EXPECT_GT(narrow, 2.0 * wide);
 }
 
-TEST_F(Square, OneSideAlone) {
+TEST_F(GlossySquare, OneSideAlone) {
     make(10.0f, 1);
     const GlossySide& s = glossy_.sides[1];
     for (std::uint32_t p = s.first_patch; p < s.first_patch + s.leaf_count; ++p)
