@@ -9,6 +9,8 @@
 
 #include <fmt/format.h>
 
+#include <limits>
+
 namespace transillum {
 
 namespace {
@@ -45,6 +47,10 @@ void record_settings(const BakeOptions& o, Solution& s) {
         {"target-error", fmt::format("{}", o.iteration.target_error)},
         {"time", fmt::format("{}", o.iteration.seconds)},
         {"monte-carlo", residuals[static_cast<int>(o.iteration.monte_carlo)]},
+        {"refine", fmt::format("{}", o.refinement.phases)},
+        {"refine-tolerance", fmt::format("{}", o.refinement.tolerance)},
+        {"max-leaves", fmt::format("{}", o.refinement.max_leaves)},
+        {"refine-for", o.refinement.direct ? "stored" : "traced"},
         {"averaging", averagings[static_cast<int>(o.iteration.averaging)]},
         {"brdf-bins", o.bins.level < 0 ? "auto" : fmt::format("{}", bin_count(o.bins.level))},
         {"seed", fmt::format("{}", o.seed)}};
@@ -53,14 +59,20 @@ void record_settings(const BakeOptions& o, Solution& s) {
 /// Directions of the first phase: enough for every patch to be met from all around, and to tell its
 /// light from noise.
 constexpr std::uint64_t first_phase = 128;
+constexpr std::uint64_t all_directions = std::numeric_limits<std::uint64_t>::max();
 
 /// Bins of automatic levels are divided as the light asks for it, from one level above what the
-/// lobe alone would.
+/// lobe alone would, where some phase is going to try that one.
 std::vector<std::int8_t> first_bin_levels(const Solution& s, const BakeOptions& options) {
     std::vector<std::int8_t> levels = choose_bin_levels(s.surface, options.bins);
-    if (options.refinement.phases > 0 && options.bins.level < 0)
-        for (std::int8_t& level : levels)
-            if (level > 0) --level;
+    if (options.refinement.phases == 0 || options.bins.level >= 0) return levels;
+    std::vector<std::int8_t> fewer = levels;
+    for (std::int8_t& level : fewer)
+        if (level > 0) --level;
+    const std::vector<std::int8_t> tried =
+        deeper_bins(fewer, first_phase << (options.refinement.phases - 1));
+    for (std::size_t i = 0; i < levels.size(); ++i)
+        if (tried[i] >= levels[i]) levels[i] = fewer[i];
     return levels;
 }
 
@@ -104,8 +116,9 @@ Decision refine(Solution& s, const BakeOptions& options, const Baker& baker, Mon
         trial.patches = children.patches;
         refined.directions = std::max(first_phase, 2 * refined.directions);
         Refined tried = refined;
+        const std::vector<std::int8_t> before_dividing = refined.bin_levels;
         if (divides) tried.bin_levels = deeper_bins(refined.bin_levels, refined.directions);
-        refined.sums = baker.run(trial, tried, refined.directions);
+        refined.sums = baker.run(trial, tried, refined.directions, true);
         if (options.refinement.keep_phase) options.refinement.keep_phase(trial, phase);
         const SplitChoice choice =
             find_coarse_leaves(trial, s.patches, children, options.refinement, split);
@@ -114,7 +127,9 @@ Decision refine(Solution& s, const BakeOptions& options, const Baker& baker, Mon
         monitor.note(fmt::format("phase {}: {} of {} leaves split, bins of {} glossy sides divided",
                                  phase + 1, choice.count, s.patches.leaf_count, divided));
         limited = choice.limited;
-        if (choice.count == 0 && divided == 0) break;
+        const bool all_tried =
+            !divides || tried.bin_levels == deeper_bins(before_dividing, all_directions);
+        if (choice.count == 0 && divided == 0 && all_tried) break;
         s.patches = split_leaves(s.patches, choice.split).patches;
     }
     return {
@@ -124,8 +139,24 @@ Decision refine(Solution& s, const BakeOptions& options, const Baker& baker, Mon
 
 }  // namespace
 
+namespace {
+
+/// Refinement and sub-patches try quarters of all leaves.
+void require_room_for_quarters(const BakeOptions& o) {
+    const bool splits = o.refinement.phases > 0 || o.iteration.monte_carlo != MonteCarlo::off ||
+                        o.iteration.averaging == Averaging::none;
+    if (splits && o.subdivision.max_level >= max_subdivision_level)
+        throw UsageError(fmt::format(
+            "max level {}: refinement and the Monte-Carlo component look at quarters of leaves; "
+            "accepted with them: at most {}",
+            o.subdivision.max_level, max_subdivision_level - 1));
+}
+
+}  // namespace
+
 Layout lay_out_solution(const Scene& scene, const BakeOptions& options, const Baker& baker,
                         StopWatch& watch, Monitor& monitor) {
+    require_room_for_quarters(options);
     Layout layout;
     Solution& s = layout.solution;
     s.seed = options.seed;
@@ -150,8 +181,12 @@ Solution bake(const Scene& scene, const BakeOptions& options, const Workers& wor
     Layout layout = lay_out_solution(scene, options, baker, watch, monitor);
     Solution& s = layout.solution;
     // As many again as the phases took: what they inherited from larger patches must fade.
-    baker.run(s, layout.refined,
-              std::max(options.iteration.iterations, 2 * layout.refined.directions));
+    const std::uint64_t least = 2 * layout.refined.directions;
+    if (options.iteration.iterations < least)
+        layout.decisions.push_back(
+            {fmt::format("{} directions, not {}", least, options.iteration.iterations),
+             "the phases took half as many"});
+    baker.run(s, layout.refined, std::max(options.iteration.iterations, least));
     s.decisions.insert(s.decisions.begin(), layout.decisions.begin(), layout.decisions.end());
     warn_of_sharp_lobes(s, monitor);
     note_decisions(s, monitor);

@@ -88,11 +88,13 @@ BandGroup take_group(Solution& s) {
     return group;
 }
 
-/// Groups decide alike but for those that have no light.
-void add_new(std::vector<Decision>& decisions, const std::vector<Decision>& of_group) {
+/// Groups decide alike but for those that have no light, and where something was measured.
+/// \param group its name, or empty for what holds for all
+void add_new(std::vector<Decision>& decisions, const std::vector<Decision>& of_group,
+             const std::string& group) {
     for (const Decision& d : of_group)
         if (std::ranges::none_of(decisions, [&](const Decision& k) { return k.what == d.what; }))
-            decisions.push_back(d);
+            decisions.push_back({group.empty() ? d.what : group + ": " + d.what, d.why});
 }
 
 std::string name_of(const Bands& bands, int group) {
@@ -120,15 +122,15 @@ SpectralSolution bake_bands(const Scene& scene, const SpectralOptions& spectral,
     of_group.iteration.seconds /= bands.groups();
 
     Baker baker(of_group, workers, monitor, watch);
-    baker.band_groups = static_cast<std::uint64_t>(bands.groups());
     Layout layout = lay_out_solution(with_colours(scene, rgb), options, baker, watch, monitor);
+    baker.band_groups = static_cast<std::uint64_t>(bands.groups());
     Solution& s = layout.solution;
     std::vector<Decision>& decisions = layout.decisions;
     baker.prepare(s, layout.refined.bin_levels);
     decisions.push_back({fmt::format("{} bands of {:.4g} nm in {} groups", bands.count(),
                                      bands.edge(1) - bands.edge(0), bands.groups()),
                          "asked for"});
-    add_new(decisions, s.decisions);
+    add_new(decisions, s.decisions, {});
 
     SpectralSolution result;
     result.bands = bands.count();
@@ -139,7 +141,7 @@ SpectralSolution bake_bands(const Scene& scene, const SpectralOptions& spectral,
         s.direct_irradiance = direct_irradiance(s.direct, s.patches.patch_count());
         s.decisions.clear();
         Baker(of_group, workers, part, watch).transport(s, options.iteration.iterations);
-        add_new(decisions, s.decisions);
+        add_new(decisions, s.decisions, g == 0 ? std::string() : name_of(bands, g));
         converted.add(bands.rgb_from_group(g), s);
         result.groups.push_back(take_group(s));
     }

@@ -62,7 +62,7 @@ void decide_bins(const Solution& s, const BinOptions& options, std::vector<Decis
          options.level < 0 ? "by the width and weight of their lobes" : "asked for"});
 }
 
-void decide_monte_carlo(const TransportResult& t, MonteCarlo choice,
+void decide_monte_carlo(const TransportResult& t, MonteCarlo choice, Averaging averaging,
                         std::vector<Decision>& decisions) {
     if (t.carried == 0) {
         decisions.push_back({"no Monte-Carlo component in the transport",
@@ -74,7 +74,9 @@ void decide_monte_carlo(const TransportResult& t, MonteCarlo choice,
                                 : "in the transillumination buffer";
     const std::string what = fmt::format("Monte-Carlo component carried {} for {} of {} directions",
                                          how, t.carried, t.iterations);
-    if (choice != MonteCarlo::automatic)
+    if (averaging == Averaging::none)
+        decisions.push_back({what, "plain iteration: no finite elements are fed back"});
+    else if (choice != MonteCarlo::automatic)
         decisions.push_back({what, "asked for"});
     else if (std::isnan(t.residual_effect))
         decisions.push_back({what, "too few directions to tell what it is worth"});
@@ -89,9 +91,9 @@ void decide_monte_carlo(const TransportResult& t, MonteCarlo choice,
 }  // namespace
 
 std::shared_ptr<const IterationSums> Baker::run(Solution& s, const Refined& refined,
-                                                std::uint64_t iterations) const {
+                                                std::uint64_t iterations, bool keep_sums) const {
     prepare(s, refined.bin_levels);
-    return transport(s, iterations, refined.sums);
+    return transport(s, iterations, refined.sums, keep_sums);
 }
 
 void Baker::prepare(Solution& s, std::span<const std::int8_t> bin_levels) const {
@@ -103,9 +105,10 @@ void Baker::prepare(Solution& s, std::span<const std::int8_t> bin_levels) const 
     watch_.lap("first shot");
 }
 
-std::shared_ptr<const IterationSums> Baker::transport(
-    Solution& s, std::uint64_t iterations, std::shared_ptr<const IterationSums> start) const {
-    auto sums = iterate_on(s, iterations, std::move(start));
+std::shared_ptr<const IterationSums> Baker::transport(Solution& s, std::uint64_t iterations,
+                                                      std::shared_ptr<const IterationSums> start,
+                                                      bool keep_sums) const {
+    auto sums = iterate_on(s, iterations, std::move(start), keep_sums);
     watch_.lap("transport");
     return sums;
 }
@@ -121,8 +124,9 @@ void Baker::shoot(Solution& s) const {
     const Luminaires luminaires = sample_luminaires(s.surface, light, s.lighting.lights);
     decide_first_shot(luminaires, light.first_shot, s.patches.patch_count(), s.decisions);
     MemoryEstimate needed = estimate_memory(s, luminaires, workers_.count(), band_groups);
-    needed.monte_carlo = monte_carlo_bytes(options_.iteration.monte_carlo, s.surface, s.patches,
-                                           pixel_size(s), workers_.count());
+    needed.monte_carlo =
+        monte_carlo_bytes(carried_by(options_.iteration.monte_carlo, options_.iteration.averaging),
+                          s.surface, s.patches, pixel_size(s), workers_.count());
     require_memory(needed, options_.memory);
     s.direct = shoot_direct_light(s.surface, s.patches, luminaires, options_.hemicube_resolution,
                                   workers_, monitor_);
@@ -130,13 +134,14 @@ void Baker::shoot(Solution& s) const {
     s.interrupted = monitor_.stop_requested();
 }
 
-std::shared_ptr<const IterationSums> Baker::iterate_on(
-    Solution& s, std::uint64_t iterations, std::shared_ptr<const IterationSums> start) const {
+std::shared_ptr<const IterationSums> Baker::iterate_on(Solution& s, std::uint64_t iterations,
+                                                       std::shared_ptr<const IterationSums> start,
+                                                       bool keep_sums) const {
     IterationOptions iteration = options_.iteration;
     iteration.iterations = iterations;
     iteration.seed = options_.seed;
     iteration.start = std::move(start);
-    iteration.keep_sums = options_.refinement.phases > 0;
+    iteration.keep_sums = keep_sums;
     iteration.pixel_size = pixel_size(s);
     const PatchSources sources = make_sources(s);
     if (!shines(sources)) {
@@ -147,7 +152,7 @@ std::shared_ptr<const IterationSums> Baker::iterate_on(
         s.decisions.push_back({"no environment", "the scene has none"});
     TransportResult transport =
         iterate(s.surface, s.patches, sources, iteration, workers_, monitor_);
-    decide_monte_carlo(transport, iteration.monte_carlo, s.decisions);
+    decide_monte_carlo(transport, iteration.monte_carlo, iteration.averaging, s.decisions);
     s.indirect_irradiance = std::move(transport.irradiance);
     s.spatial_error = std::move(transport.spatial_error);
     s.directional_error = std::move(transport.directional_error);

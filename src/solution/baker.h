@@ -25,24 +25,25 @@ public:
 
     /// Of a solution that has its surface, patches and lighting. Its decisions are begun anew.
     /// \param iterations in all, those that `refined` has sums of among them
-    /// \returns what was summed up, for the next run to go on from
+    /// \returns what was summed up, for the next run to go on from, where that is to be kept
     std::shared_ptr<const IterationSums> run(Solution& solution, const Refined& refined,
-                                             std::uint64_t iterations) const;
+                                             std::uint64_t iterations,
+                                             bool keep_sums = false) const;
 
     // Its two halves. The second may be repeated with other colours.
     void prepare(Solution& solution, std::span<const std::int8_t> bin_levels) const;
     std::shared_ptr<const IterationSums> transport(
         Solution& solution, std::uint64_t iterations,
-        std::shared_ptr<const IterationSums> start = nullptr) const;
+        std::shared_ptr<const IterationSums> start = nullptr, bool keep_sums = false) const;
 
     std::uint64_t band_groups = 0;  ///< whose results are to be kept, for the estimate of memory
 
 private:
     [[nodiscard]] double pixel_size(const Solution& solution) const;
     void shoot(Solution& solution) const;
-    std::shared_ptr<const IterationSums> iterate_on(
-        Solution& solution, std::uint64_t iterations,
-        std::shared_ptr<const IterationSums> start) const;
+    std::shared_ptr<const IterationSums> iterate_on(Solution& solution, std::uint64_t iterations,
+                                                    std::shared_ptr<const IterationSums> start,
+                                                    bool keep_sums) const;
 
     const BakeOptions& options_;
     const Workers& workers_;

@@ -21,7 +21,8 @@ struct MemoryEstimate {
     }
 };
 
-/// All but the Monte-Carlo component. \pre the surface, patches and glossy sides are known.
+/// All but `monte_carlo`, which the caller fills in. \pre the surface, patches and glossy sides are
+/// known.
 [[nodiscard]] MemoryEstimate estimate_memory(const Solution& solution, const Luminaires& luminaires,
                                              int threads, std::uint64_t band_groups = 0);
 

@@ -25,7 +25,7 @@ struct BundleLight::State {
           irradiance(patches.patch_count()),
           glossy(sources.glossy.element_count) {
         elements.restore(given_irradiance, given_elements);
-        transfer.carry(options.representation, elements);
+        transfer.record(options.representation);
     }
 
     void next() {
@@ -41,7 +41,7 @@ struct BundleLight::State {
             send(brightest);
         }
         elements.send_along(exchange, bundle);
-        transfer.transfer_alone(exchange, bundle);
+        transfer.transfer(exchange, elements, bundle);
         direction = bundle.frame[2];
         ++bundles;
         ++remembered;
@@ -49,8 +49,8 @@ struct BundleLight::State {
     }
 
     void send(float brightest) {
-        // A pixel is met at most twice a fragment, and a window has no more of them than this.
-        constexpr double most_fragments = 2.0 * 16384.0 * 16384.0;
+        // Nothing is summed up but one bundle a patch.
+        constexpr double most_fragments = 16384.0 * 16384.0;
         elements.send(exchange, brightest, most_fragments);
     }
 

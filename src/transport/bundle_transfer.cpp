@@ -53,22 +53,24 @@ Bundle BundleTransfer::bundle(std::uint64_t i) {
     return sample_bundle(static_cast<std::uint32_t>(order_.at(i)), seed_);
 }
 
-void BundleTransfer::carry(MonteCarlo representation, const FiniteElementComponent& elements) {
+void BundleTransfer::represent(MonteCarlo representation, Carried carried) {
     residual_ = representation == MonteCarlo::subpatch
-                    ? make_subpatch_component(patches_, workers_)
-                    : make_wavefront_component(mesh_, patches_, workers_);
+                    ? make_subpatch_component(patches_, carried, workers_)
+                    : make_wavefront_component(mesh_, patches_, carried, workers_);
     buffer_ = std::make_unique<TransilluminationBuffer>(mesh_, residual_->cells(), pixel_size());
+}
+
+void BundleTransfer::carry(MonteCarlo representation, Carried carried,
+                           const FiniteElementComponent& elements, std::uint64_t next) {
+    represent(representation, carried);
     reflections_.assign(patches_.patch_count(), {});
-    headroom_ = std::min(most_headroom, 1.0f + elements.largest_gain());
-    order_.shuffle();
+    headroom_ = carried == Carried::everything
+                    ? most_headroom
+                    : std::min(most_headroom, 1.0f + elements.largest_gain());
+    order_.shuffle(next);
 }
 
-void BundleTransfer::carry_all() {
-    residual_->reflect_all();
-    headroom_ = most_headroom;
-}
-
-void BundleTransfer::carry_no_more() {
+void BundleTransfer::carry_no_more(std::uint64_t next) {
     norms_.resize(patches_.patch_count());
     for (std::uint32_t slot = 0; slot < norms_.size(); ++slot)
         norms_[slot] = residual_->norms(slot);
@@ -76,21 +78,23 @@ void BundleTransfer::carry_no_more() {
     residual_.reset();
     reflections_ = {};
     headroom_ = 1.0f;
-    order_.unshuffle();
+    order_.unshuffle(next);
+}
+
+void BundleTransfer::record(MonteCarlo representation) {
+    represent(representation, Carried::nothing);
+    records_ = true;
 }
 
 void BundleTransfer::transfer(Exchange& exchange, const FiniteElementComponent& elements,
                               const Bundle& bundle) {
     if (!residual_) return exchange.transfer(*buffer_, bundle);
-    if (carried_ > 0) elements.reflect_residual(last_, bundle, *residual_, reflections_);
-    residual_->reflect(reflections_, exchange);
-    exchange.transfer(*buffer_, bundle, *residual_);
-    last_ = bundle;
-    ++carried_;
-}
-
-void BundleTransfer::transfer_alone(Exchange& exchange, const Bundle& bundle) {
-    residual_->reflect(reflections_, exchange);
+    if (!records_) {
+        if (carried_ > 0) elements.reflect_residual(last_, bundle, *residual_, reflections_);
+        residual_->reflect(reflections_, exchange);
+        last_ = bundle;
+        ++carried_;
+    }
     exchange.transfer(*buffer_, bundle, *residual_);
 }
 

@@ -25,10 +25,14 @@ public:
 
     /// From the next block on, what arrived along a bundle is carried on by the next. Nothing has
     /// yet. \pre not automatic
-    void carry(MonteCarlo representation, const FiniteElementComponent& elements);
-    void carry_no_more();
-    /// Carries all light that way, again and again. \pre the elements leave reflection to it
-    void carry_all();
+    /// \param next number of the next direction \param carried everything: the elements leave
+    /// reflection to it
+    void carry(MonteCarlo representation, Carried carried, const FiniteElementComponent& elements,
+               std::uint64_t next);
+    void carry_no_more(std::uint64_t next);
+    /// From now on what elements send along a bundle is kept for residual() to tell; nobody
+    /// receives anything.
+    void record(MonteCarlo representation);
     /// Null unless carried.
     [[nodiscard]] const MonteCarloComponent* residual() const { return residual_.get(); }
     [[nodiscard]] MonteCarloComponent* residual() { return residual_.get(); }
@@ -37,8 +41,6 @@ public:
     /// Bound of what a point sends over what any patch does.
     [[nodiscard]] float headroom() const { return headroom_; }
 
-    /// One bundle of what the elements send alone, of which residual() then knows what arrived.
-    void transfer_alone(Exchange& exchange, const Bundle& bundle);
     void transfer(Exchange& exchange, const FiniteElementComponent& elements, const Bundle& bundle);
 
     /// Sums of the norms of a patch, over carried() directions, whether still carried or not.
@@ -47,6 +49,8 @@ public:
     [[nodiscard]] double pixel_size() const { return buffer_->pixel_size(); }
 
 private:
+    void represent(MonteCarlo representation, Carried carried);
+
     const SurfaceMesh& mesh_;
     const PatchHierarchy& patches_;
     const Workers& workers_;
@@ -54,6 +58,7 @@ private:
     std::uint64_t seed_;
     std::unique_ptr<TransilluminationBuffer> buffer_;
     std::unique_ptr<MonteCarloComponent> residual_;
+    bool records_ = false;
     std::vector<ResidualNorms> norms_;           ///< one a slot, of a component that is gone
     std::vector<BundleReflection> reflections_;  ///< one a slot
     Bundle last_;

@@ -8,7 +8,7 @@
 
 namespace transillum {
 
-/// Number of its group, one a root; roots of a group know each other by shared vertices.
+/// Number of its group, one a root; roots of a group know each other by shared edges.
 [[nodiscard]] std::vector<std::uint32_t> coplanar_groups(const SurfaceMesh& mesh);
 
 }  // namespace transillum

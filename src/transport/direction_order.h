@@ -14,11 +14,11 @@ class DirectionOrder {
 public:
     explicit DirectionOrder(std::uint64_t seed) : seed_(seed) {}
 
-    /// From the next block on.
-    void shuffle() { shuffled_ = true; }
-    void unshuffle() { shuffled_ = false; }
-    /// Number in the sequence of the direction that is taken as number i. A run that was shuffled
-    /// must be taken block by block.
+    /// Those from number `next` on.
+    void shuffle(std::uint64_t next);
+    /// As soon as the block that number `next` is in is through.
+    void unshuffle(std::uint64_t next);
+    /// Number in the sequence of the direction that is taken as number i.
     [[nodiscard]] std::uint64_t at(std::uint64_t i);
 
     /// A multiple of it begins every block from there on.
@@ -26,8 +26,8 @@ public:
 
 private:
     std::uint64_t seed_;
-    bool shuffled_ = false;
-    std::uint64_t begin_ = 0;
+    std::uint64_t from_ = 0, until_ = 0;  ///< shuffled
+    std::uint64_t begin_ = 0;             ///< of the block at hand
     std::vector<std::uint32_t> block_;
 };
 

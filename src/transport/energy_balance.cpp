@@ -74,11 +74,17 @@ std::vector<double> solve_channel(const std::vector<ClusterState>& states,
             sent[j] += transfer.at(i, j).radiance[channel];
             seen[j] += transfer.at(i, j).coverage;
         }
-    // Share of j's flux that reaches i; a dark cluster's by its fragments.
+    // Share of j's flux that reaches i; a dark cluster's by its fragments, and of one whose light
+    // residuals outweigh, which have signs.
+    std::vector<bool> by_fragments(n);
+    for (std::uint32_t j = 0; j < n; ++j) {
+        by_fragments[j] = shape == BalanceShape::flat || !(sent[j] > 0.0);
+        for (std::uint32_t i = 0; i <= n; ++i)
+            if (transfer.at(i, j).radiance[channel] < 0.0) by_fragments[j] = true;
+    }
     const auto share = [&](std::uint32_t i, std::uint32_t j) {
         if (seen[j] == 0.0) return 0.0;
-        if (shape == BalanceShape::flat || sent[j] == 0.0)
-            return transfer.at(i, j).coverage / seen[j];
+        if (by_fragments[j]) return transfer.at(i, j).coverage / seen[j];
         return transfer.at(i, j).radiance[channel] / sent[j];
     };
     std::vector<double> matrix(std::size_t{n} * (n + 1)), flux;

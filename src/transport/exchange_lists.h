@@ -21,10 +21,12 @@ inline constexpr int cluster_shift = 8;
         (reinterpret_cast<const Unsigned&>(r.lane) >> cluster_shift) | Unsigned{0, 0, 0, 1};
     return {reinterpret_cast<const FixedRadiance::Lanes&>(bits)};
 }
-/// The same of any sign, below 2^62. No processor before AVX-512 shifts 64-bit lanes with a sign.
+/// The same of any sign, below 2^61, rounded: cut off, small negative ones would count, positive
+/// ones not. No processor before AVX-512 shifts 64-bit lanes with a sign.
 [[nodiscard]] inline FixedRadiance shifted_signed(const FixedRadiance& r) {
     constexpr std::int64_t bias = std::int64_t{1} << 62;
-    const FixedRadiance above{r.lane + FixedRadiance::Lanes{bias, bias, bias, 0}};
+    constexpr std::int64_t half = bias + (1 << (cluster_shift - 1));
+    const FixedRadiance above{r.lane + FixedRadiance::Lanes{half, half, half, 0}};
     constexpr std::int64_t less = bias >> cluster_shift;
     return {shifted(above).lane - FixedRadiance::Lanes{less, less, less, 0}};
 }

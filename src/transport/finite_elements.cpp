@@ -96,6 +96,7 @@ void FiniteElementComponent::restart() {
 }
 
 void FiniteElementComponent::recall() {
+    if (earlier_.empty()) return;
     for (std::size_t p = 0; p < earlier_.size(); ++p) {
         PatchSums& s = sums_[p];
         const PatchSums& e = earlier_[p];
@@ -113,6 +114,7 @@ void FiniteElementComponent::recall() {
 void FiniteElementComponent::forget() {
     earlier_.clear();
     earlier_.shrink_to_fit();
+    earlier_blocks_ = 0;
     glossy_.forget();
 }
 
@@ -213,7 +215,11 @@ void FiniteElementComponent::reflect_residual(const Bundle& last, const Bundle& 
             for (std::uint32_t leaf = first; leaf < first + patches_.leaves_of(root); ++leaf)
                 for (const std::uint32_t patch : {leaf, leaf + patches_.leaf_count}) {
                     const std::uint32_t slot = slot_of_patch(patch, patches_.leaf_count);
-                    const Spectrum gain = twice_cosine * sources_.albedo[patch];
+                    // Of a patch that met no pixel there is no mean to tell a residual from.
+                    const bool met = residual.arrived(slot).coverage > 0.0f;
+                    const Spectrum gain = met || !feeds_back_
+                                              ? twice_cosine * sources_.albedo[patch]
+                                              : Spectrum(0.0f);
                     const Spectrum projected = feeds_back_ ? gain : Spectrum(0.0f);
                     reflections[slot] = {lanes_of(gain),
                                          lanes_of(projected * residual.arrived(slot).radiance)};

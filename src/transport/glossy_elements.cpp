@@ -213,6 +213,10 @@ void GlossyElements::reflect_residual(const Bundle& last, const Bundle& next,
         }
         for (std::uint32_t p = s.first_patch + c.begin; p < s.first_patch + c.end; ++p) {
             const std::uint32_t slot = slot_of_patch(p, patches_.leaf_count);
+            if (feeds_back_ && !(residual.arrived(slot).coverage > 0.0f)) {
+                reflections[slot] = {};
+                continue;
+            }
             const Spectrum& albedo = sources_.albedo[p];
             reflections[slot] = {lanes_of(diffuse * albedo + lobe),
                                  lanes_of((projected_diffuse * albedo + projected_lobe) *

@@ -74,7 +74,8 @@ public:
     TransportResult run() {
         while (done_ < options_.iterations && !stopped()) {
             begin_block();
-            const std::uint64_t block = block_length(done_, options_.averaging);
+            std::uint64_t block = block_length(done_, options_.averaging);
+            if (effect_) block = std::min(block, first_carried / 2);
             component_.send(exchange_, brightest_environment(block), most_fragments(block),
                             transfer_.headroom());
             std::uint64_t in_block = 0;
@@ -162,29 +163,27 @@ private:
 
     void begin_carrying() {
         const bool all = options_.averaging == Averaging::none;
-        representation_ = options_.monte_carlo;
-        if (all && representation_ != MonteCarlo::wavefront) representation_ = MonteCarlo::subpatch;
+        representation_ = carried_by(options_.monte_carlo, options_.averaging);
         if (representation_ == MonteCarlo::automatic) {
             representation_ = representation_of(representation_, patches_);
             effect_.emplace(patches_.leaf_count);
             effect_begin_ = done_;
         }
-        transfer_.carry(representation_, component_);
-        if (all) {
-            component_.leave_reflection_to_residual();
-            transfer_.carry_all();
-        }
+        transfer_.carry(representation_, all ? Carried::everything : Carried::residual, component_,
+                        done_);
+        if (all) component_.leave_reflection_to_residual();
     }
 
     /// What changes less than the error that is to be expected is carried no more.
     void decide_on_carrying() {
-        residual_effect_ = effect_->root_mean_square(leaf_area_) / mean_incoming();
+        const double mean = mean_incoming();
+        residual_effect_ = mean > 0.0 ? effect_->root_mean_square(leaf_area_) / mean : 0.0;
         effect_.reset();
         const double expected = options_.target_error > 0.0
                                     ? options_.target_error
                                     : relative_error_ * static_cast<double>(done_) /
                                           static_cast<double>(std::max(done_, options_.iterations));
-        if (!(residual_effect_ > expected)) transfer_.carry_no_more();
+        if (!(residual_effect_ > expected)) transfer_.carry_no_more(done_);
     }
 
     double mean_incoming() const {
@@ -195,7 +194,7 @@ private:
             area += a;
             mean += a * luminance(component_.incoming(p));
         }
-        return mean / area;
+        return area > 0.0 ? mean / area : 0.0;
     }
 
     void end_block(std::uint64_t directions) {

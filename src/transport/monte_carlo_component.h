@@ -44,6 +44,12 @@ struct Arrived {
     float coverage = 0.0f;    ///< their number
 };
 
+enum class Carried {
+    residual,    ///< of what the elements sent, what they can't hold
+    everything,  ///< all that arrived, again and again: where there is nothing beside it
+    nothing      ///< what the elements sent is only kept, to be looked up; patches receive nothing
+};
+
 class MonteCarloComponent {
 public:
     virtual ~MonteCarloComponent() = default;
@@ -51,12 +57,8 @@ public:
     /// The leaves that the lists of the transillumination buffer must hold.
     [[nodiscard]] virtual const PatchHierarchy& cells() const = 0;
 
-    /// From now on residuals, too, are reflected, again and again: where there is nothing beside
-    /// them.
-    void reflect_all() { reflects_all_ = true; }
-
     /// Sets how what arrived along the last bundle is reflected along the next. The first time,
-    /// nothing has arrived.
+    /// nothing has arrived. \pre something is carried
     virtual void reflect(std::span<const BundleReflection> reflections,
                          const Exchange& exchange) = 0;
 
@@ -82,10 +84,12 @@ public:
     [[nodiscard]] std::uint64_t directions() const { return directions_; }
 
 protected:
-    explicit MonteCarloComponent(std::uint32_t leaf_count)
-        : arrived_(2 * std::size_t{leaf_count}), norms_(2 * std::size_t{leaf_count}) {}
+    MonteCarloComponent(std::uint32_t leaf_count, Carried carried)
+        : carried_(carried),
+          arrived_(2 * std::size_t{leaf_count}),
+          norms_(2 * std::size_t{leaf_count}) {}
 
-    bool reflects_all_ = false;
+    Carried carried_;
     std::vector<Arrived> arrived_;
     std::vector<ResidualNorms> norms_;
     std::uint64_t directions_ = 0;
@@ -93,11 +97,12 @@ protected:
 
 /// The object-space representation (§3.1.2): constant on the quarters of every leaf.
 [[nodiscard]] std::unique_ptr<MonteCarloComponent> make_subpatch_component(
-    const PatchHierarchy& patches, const Workers& workers);
+    const PatchHierarchy& patches, Carried carried, const Workers& workers);
 
 /// The image-space representation (§3.1.1): the last transillumination buffer, kept whole with what
 /// arrived at each of its points. Looked up by coplanar group of roots, else by depth, and facing.
 [[nodiscard]] std::unique_ptr<MonteCarloComponent> make_wavefront_component(
-    const SurfaceMesh& mesh, const PatchHierarchy& patches, const Workers& workers);
+    const SurfaceMesh& mesh, const PatchHierarchy& patches, Carried carried,
+    const Workers& workers);
 
 }  // namespace transillum

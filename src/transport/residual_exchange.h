@@ -2,6 +2,7 @@
 #pragma once
 
 #include "transport/exchange_lists.h"
+#include "transport/monte_carlo_component.h"
 
 namespace transillum {
 
@@ -13,13 +14,17 @@ struct ResidualPoint {
 
 /// \param layer point(fragment, index within the tile, column, row) -> ResidualPoint;
 /// arrive_at_lower(point, index, radiance), arrive_at_upper likewise
-/// \param reflects_all they are told all that arrives; else, what the finite elements sent
+/// \param carried everything: it is told all that arrives; else, what the finite elements sent
 template <class Layer>
 void exchange_with_residual(const TileLists& tile, const ExchangeTables& tables, int cluster_row,
-                            bool reflects_all, ExchangeTally& tally, Layer& layer) {
+                            Carried carried, ExchangeTally& tally, Layer& layer) {
     const std::uint32_t outside = 2 * tables.leaf_count;
     const std::uint32_t n = tables.cluster_count + 1;
     FixedRadiance escaped, entered;
+    const bool received = carried != Carried::nothing;
+    const auto receive = [&](std::uint32_t slot, const FixedRadiance& radiance) {
+        if (received) tally.received[slot] += radiance;
+    };
     const auto tell_clusters = [&](std::uint32_t a, const FixedRadiance& by_a, std::uint32_t b,
                                    const FixedRadiance& by_b) {
         tally.transfer[tables.cluster[a] * n + tables.cluster[b]] += shifted_signed(by_b);
@@ -34,7 +39,7 @@ void exchange_with_residual(const TileLists& tile, const ExchangeTables& tables,
     };
     for (int row = 0; row < tile.height; ++row) {
         const bool sampled =
-            cluster_row >= 0 && (tile.row0 + row) % cluster_row_stride == cluster_row;
+            received && cluster_row >= 0 && (tile.row0 + row) % cluster_row_stride == cluster_row;
         for (int column = 0; column < tile.width; ++column) {
             const int pixel = row * tile.width + column;
             std::uint32_t i = tile.first[pixel];
@@ -46,7 +51,7 @@ void exchange_with_residual(const TileLists& tile, const ExchangeTables& tables,
             // The first and the last of a list face the environment.
             ResidualPoint behind = point(i);
             FixedRadiance sent = sum(tables.radiance[behind.lower], behind.from_lower);
-            tally.received[behind.lower] += tables.along;
+            receive(behind.lower, tables.along);
             layer.arrive_at_lower(behind, i, tables.along);
             entered += tables.along;
             escaped += sent;
@@ -57,23 +62,27 @@ void exchange_with_residual(const TileLists& tile, const ExchangeTables& tables,
                 const FixedRadiance backwards = tables.radiance[ahead.lower];
                 const FixedRadiance all_forwards = sum(forwards, behind.from_upper);
                 const FixedRadiance all_backwards = sum(backwards, ahead.from_lower);
-                tally.received[ahead.lower] += all_forwards;
-                tally.received[behind.upper] += all_backwards;
-                layer.arrive_at_lower(ahead, i, reflects_all ? all_forwards : forwards);
-                layer.arrive_at_upper(behind, i - 1, reflects_all ? all_backwards : backwards);
+                receive(ahead.lower, all_forwards);
+                receive(behind.upper, all_backwards);
+                layer.arrive_at_lower(ahead, i,
+                                      carried == Carried::everything ? all_forwards : forwards);
+                layer.arrive_at_upper(behind, i - 1,
+                                      carried == Carried::everything ? all_backwards : backwards);
                 if (sampled) tell_clusters(ahead.lower, all_backwards, behind.upper, all_forwards);
                 behind = ahead;
             }
             sent = sum(tables.radiance[behind.upper], behind.from_upper);
-            tally.received[behind.upper] += tables.against;
+            receive(behind.upper, tables.against);
             layer.arrive_at_upper(behind, i - 1, tables.against);
             entered += tables.against;
             escaped += sent;
             if (sampled) tell_clusters(behind.upper, sent, outside, tables.against);
         }
     }
-    tally.received[outside] += escaped;
-    tally.entered += entered;
+    if (received) {
+        tally.received[outside] += escaped;
+        tally.entered += entered;
+    }
     tally.fragments += tile.fragments.size();
 }
 

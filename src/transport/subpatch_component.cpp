@@ -21,8 +21,8 @@ double luminance_of(const Lanes& l) {
 
 class SubpatchComponent final : public MonteCarloComponent {
 public:
-    SubpatchComponent(const PatchHierarchy& patches, const Workers& workers)
-        : MonteCarloComponent(patches.leaf_count),
+    SubpatchComponent(const PatchHierarchy& patches, Carried carried, const Workers& workers)
+        : MonteCarloComponent(patches.leaf_count, carried),
           split_(split_all_leaves(patches)),
           workers_(workers),
           children_(patches.leaf_count),
@@ -71,7 +71,7 @@ public:
             }
         } layer{split_.parent.data(), residual_.data(), received_[worker].data(),
                 tile.fragments.data()};
-        exchange_with_residual(tile, tables, cluster_row, reflects_all_, tally, layer);
+        exchange_with_residual(tile, tables, cluster_row, carried_, tally, layer);
     }
 
     void end(const TransilluminationBuffer&, const ExchangeTables& tables) override {
@@ -152,8 +152,9 @@ private:
 }  // namespace
 
 std::unique_ptr<MonteCarloComponent> make_subpatch_component(const PatchHierarchy& patches,
+                                                             Carried carried,
                                                              const Workers& workers) {
-    return std::make_unique<SubpatchComponent>(patches, workers);
+    return std::make_unique<SubpatchComponent>(patches, carried, workers);
 }
 
 }  // namespace transillum

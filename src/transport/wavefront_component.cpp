@@ -25,9 +25,9 @@ constexpr int tiles_a_row = 256;  ///< of the widest window
 /// Where surfaces curve, a sample of a neighbouring root may lie this many pixels off in depth, per
 /// unit of slope; steeper slopes than the largest are not told apart.
 constexpr double depth_pixels = 2.0, largest_slope = 16.0;
-/// Luminance in the norms is counted in steps of the largest radiance over 2^20: squares of them
-/// add up in 64 bits.
-constexpr int norm_bits = 20;
+/// Luminance in the norms is counted in steps of the largest radiance over 2^34. Their squares add
+/// up in 128 bits.
+constexpr int norm_bits = 34;
 
 /// A surface point behind a pixel.
 struct WavePoint {
@@ -64,14 +64,15 @@ struct Wavefront {
 /// Of a slot, in integers: what arrived, and the luminance sent in two powers.
 struct SlotTally {
     FixedRadiance arrived;
-    std::int64_t sent = 0, sent_squared = 0, count = 0;
+    std::int64_t sent = 0, count = 0;
+    __extension__ __int128 sent_squared = 0;
 };
 
 class WavefrontComponent final : public MonteCarloComponent {
 public:
-    WavefrontComponent(const SurfaceMesh& mesh, const PatchHierarchy& patches,
+    WavefrontComponent(const SurfaceMesh& mesh, const PatchHierarchy& patches, Carried carried,
                        const Workers& workers)
-        : MonteCarloComponent(patches.leaf_count),
+        : MonteCarloComponent(patches.leaf_count, carried),
           patches_(patches),
           workers_(workers),
           group_(coplanar_groups(mesh)),
@@ -89,7 +90,7 @@ public:
     }
 
     void begin(const Bundle& bundle) override {
-        std::swap(last_, current_);
+        if (carried_ != Carried::nothing) std::swap(last_, current_);
         for (WaveTile& t : current_.tiles) t.width = t.height = 0;
         current_.direction = bundle.frame[2];
     }
@@ -156,7 +157,9 @@ private:
         return found;
     }
 
+    /// Nothing is sent, and counted, where nothing is carried.
     [[nodiscard]] double norm_step(double unit) const {
+        if (carried_ == Carried::nothing) return 1.0;
         return unit * std::ldexp(1.0, exchange_->bits() - norm_bits);
     }
 
@@ -220,6 +223,7 @@ struct WavefrontComponent::Layer {
         ResidualPoint p;
         p.upper = upper_slot(f);
         p.lower = p.upper ^ 1u;
+        if (c.carried_ == Carried::nothing) return p;
         const WavePoint* const last = c.directions_ > 1 ? find(f, root, column, row) : nullptr;
         // Fronts and backs may have changed places.
         const int upper = last && ((last->surface & 1u) != 0) != forwards ? 0 : 1;
@@ -255,9 +259,10 @@ private:
         const Spectrum radiance(out[0], out[1], out[2]);
         SlotTally& t = tallies[slot];
         const auto q = std::llrint(luminance(SpectrumSum(radiance)) * steps);
-        const std::int64_t limited = std::clamp<std::int64_t>(q, -(1 << norm_bits), 1 << norm_bits);
+        const std::int64_t limited = std::clamp<std::int64_t>(q, -(std::int64_t{1} << norm_bits),
+                                                              std::int64_t{1} << norm_bits);
         t.sent += limited;
-        t.sent_squared += limited * limited;
+        t.sent_squared += static_cast<__int128>(limited) * limited;
         ++t.count;
         return c.exchange_->fixed(radiance);
     }
@@ -281,15 +286,16 @@ void WavefrontComponent::exchange_tile(const TileLists& tile, const Transillumin
     made.first.assign(tile.first.begin(), tile.first.begin() + tile.width * tile.height + 1);
     made.points.resize(tile.fragments.size());
     Layer layer(*this, buffer.window(), tables, made, tallies_[worker]);
-    exchange_with_residual(tile, tables, cluster_row, reflects_all_, tally, layer);
+    exchange_with_residual(tile, tables, cluster_row, carried_, tally, layer);
 }
 
 }  // namespace
 
 std::unique_ptr<MonteCarloComponent> make_wavefront_component(const SurfaceMesh& mesh,
                                                               const PatchHierarchy& patches,
+                                                              Carried carried,
                                                               const Workers& workers) {
-    return std::make_unique<WavefrontComponent>(mesh, patches, workers);
+    return std::make_unique<WavefrontComponent>(mesh, patches, carried, workers);
 }
 
 }  // namespace transillum

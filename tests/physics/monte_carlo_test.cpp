@@ -3,6 +3,7 @@
 #include "physics/transport_runs.h"
 
 #include <transillum/scene/brdf.h>
+#include <transillum/visibility/transillumination_buffer.h>
 
 #include <gtest/gtest.h>
 
@@ -167,6 +168,34 @@ TEST_P(Carried, KeepsTheEnergyOfACube) {
         cube_scene(0.8f, 1.0f, 0.0f),
         {.directions = 1024, .leaves = 400, .resolution = 150, .monte_carlo = GetParam()});
     EXPECT_NEAR(run.mean_incoming(all_fronts) * 6.0 * 0.2, 1.0, 5e-3);
+}
+
+// Some patches lie between pixels' centres: of what they received nothing is known, and nothing may
+// be carried.
+TEST_P(Carried, KeepsTheEnergyOfPatchesBetweenPixels) {
+    const TransportRun run = run_transport(
+        cube_scene(0.8f, 1.0f, 0.0f),
+        {.directions = 1024, .leaves = 6000, .resolution = 60, .monte_carlo = GetParam()});
+    EXPECT_NEAR(run.mean_incoming(all_fronts) * 6.0 * 0.2, 1.0, 0.01);
+}
+
+// Whatever number of directions a run begins with, the effect is measured before it is judged.
+TEST(AutomaticMonteCarlo, IsMeasuredInLaterRunsToo) {
+    const TransportRun run =
+        prepare_transport(two_rooms_scene(0.8f), {.leaves = 0, .max_level = 0});
+    Monitor silent;
+    IterationOptions options;
+    options.iterations = 512;
+    options.pixel_size = pixel_size_for(run.surface, 150);
+    options.keep_sums = true;
+    const Workers workers(2);
+    options.start = iterate(run.surface, run.patches, run.sources, options, workers, silent).sums;
+    options.monte_carlo = MonteCarlo::automatic;
+    options.iterations = 1024;
+    const TransportResult later =
+        iterate(run.surface, run.patches, run.sources, options, workers, silent);
+    EXPECT_GT(later.residual_effect, 0.01);
+    EXPECT_LT(later.relative_error, 1.0);
 }
 
 TEST(AutomaticMonteCarlo, IsCarriedOnlyWhereItIsWorthIt) {

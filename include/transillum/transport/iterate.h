@@ -35,6 +35,12 @@ enum class MonteCarlo {
     wavefront  ///< in the last transillumination buffer (§3.1.1)
 };
 
+/// What an iteration of these options carries: plain iteration has nothing else.
+[[nodiscard]] inline MonteCarlo carried_by(MonteCarlo monte_carlo, Averaging averaging) {
+    const bool is_open = monte_carlo == MonteCarlo::off || monte_carlo == MonteCarlo::automatic;
+    return averaging == Averaging::none && is_open ? MonteCarlo::subpatch : monte_carlo;
+}
+
 /// Memory [bytes] that carrying it will take.
 [[nodiscard]] std::uint64_t monte_carlo_bytes(MonteCarlo monte_carlo, const SurfaceMesh& mesh,
                                               const PatchHierarchy& patches, double pixel_size,

@@ -11,14 +11,14 @@ using namespace transillum;
 TEST(DirectionOrder, IsTheSequencesOwnUntilShuffled) {
     DirectionOrder order(1);
     for (std::uint64_t i = 0; i < 3000; ++i) EXPECT_EQ(order.at(i), i);
-    order.shuffle();
-    order.unshuffle();
+    order.shuffle(0);
+    order.unshuffle(0);
     for (std::uint64_t i = 0; i < 3000; ++i) EXPECT_EQ(order.at(i), i);
 }
 
 TEST(DirectionOrder, TakesEveryDirectionOfABlockOnce) {
     DirectionOrder order(3);
-    order.shuffle();
+    order.shuffle(0);
     std::set<std::uint64_t> taken;
     for (std::uint64_t i = 0; i < 4096; ++i) {
         taken.insert(order.at(i));
@@ -31,10 +31,26 @@ TEST(DirectionOrder, TakesEveryDirectionOfABlockOnce) {
     EXPECT_EQ(taken.size(), 4096u);
 }
 
+// A run that begins or ends to be shuffled amid a block takes every direction once all the same.
+TEST(DirectionOrder, LosesNoneWhereItChanges) {
+    for (const std::uint64_t from : {0, 128, 192, 384, 600}) {
+        DirectionOrder order(5);
+        std::set<std::uint64_t> taken;
+        for (std::uint64_t i = 0; i < 2048; ++i) {
+            if (i == from) order.shuffle(i);
+            if (i == from + 128) order.unshuffle(i);
+            taken.insert(order.at(i));
+        }
+        EXPECT_EQ(taken.size(), 2048u) << from;
+        EXPECT_EQ(*taken.rbegin(), 2047u) << from;
+        EXPECT_EQ(order.at(1500), 1500u) << from;
+    }
+}
+
 TEST(DirectionOrder, LeavesFewDirectionsWhereTheyWere) {
     DirectionOrder order(3), other(4);
-    order.shuffle();
-    other.shuffle();
+    order.shuffle(0);
+    other.shuffle(0);
     int in_place = 0, followers = 0, alike = 0;
     for (std::uint64_t i = 1; i < 1024; ++i) {
         in_place += order.at(i) == i;
