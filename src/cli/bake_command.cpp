@@ -54,7 +54,9 @@ void add_options(CLI::App& command, BakeArguments& a) {
         ->check(within(0.0, 1.0))
         ->capture_default_str()
         ->group(stopping);
-    command.add_option("--time", iteration.seconds, "seconds of transport, of every phase; 0: no limit")
+    command
+        .add_option("--time", iteration.seconds,
+                    "seconds of transport, of every phase; 0: no limit")
         ->check(not_negative())
         ->capture_default_str()
         ->group(stopping);

@@ -22,7 +22,7 @@ Components chosen(const std::vector<std::string>& words) {
 
 }  // namespace
 
-void add_shading_options(CLI::App& command, ShadingOptions& options) {
+void add_shading_options(CLI::App& command, ShadingOptions& options, const std::string& automatic) {
     add_choice(command, "--direct", options.render.direct,
                {{"stored", DirectShading::stored}, {"traced", DirectShading::traced}},
                "direct light: as stored a patch, or by shadow rays to the light samples")
@@ -40,8 +40,9 @@ void add_shading_options(CLI::App& command, ShadingOptions& options) {
                 {"subpatch", MonteCarloShading::subpatch},
                 {"wavefront", MonteCarloShading::wavefront}},
                "what patches can't hold: by rays from glossy points; by new bundles, on patches' "
-               "quarters (carried from frame to frame) or in deep buffers; auto: rays where "
-               "surfaces are glossy")
+               "quarters (carried from frame to frame) or in deep buffers; auto, where surfaces "
+               "are glossy: " +
+                   automatic)
         ->group("Shading");
     command.add_flag("--flat", options.flat, "one radiance a patch instead of interpolation")
         ->group("Shading");

@@ -17,7 +17,8 @@ struct ShadingOptions {
     int threads = 0;
 };
 
-void add_shading_options(CLI::App& command, ShadingOptions& options);
+void add_shading_options(CLI::App& command, ShadingOptions& options,
+                         const std::string& automatic = "rays");
 
 [[nodiscard]] RenderOptions make_render_options(const ShadingOptions& options, Size size);
 

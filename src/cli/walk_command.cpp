@@ -15,6 +15,7 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
+#include <utility>
 
 namespace transillum::cli {
 
@@ -51,7 +52,7 @@ std::uint64_t frame_count(const CameraPath& path, double frames_a_second) {
 
 int run(const WalkArguments& a, const Common& common) {
     Console console(common.quiet);
-    const RenderOptions render = make_render_options(a.shading, parse_size(a.size));
+    RenderOptions render = make_render_options(a.shading, parse_size(a.size));
     const CameraPath path = read_camera_path(a.path);
     const std::uint64_t frames = frame_count(path, a.frames_a_second);
     std::error_code failed;
@@ -59,7 +60,11 @@ int run(const WalkArguments& a, const Common& common) {
     if (failed) throw IoError(a.folder, "cannot be made: " + failed.message());
     require_writable(a.folder + "/frame");
     const Workers workers(a.shading.threads);
-    BandRenderer renderer(load_spectral_solution(a.solution), render, workers, console);
+    SpectralSolution solution = load_spectral_solution(a.solution);
+    // Carried from frame to frame, it needs few bundles for each, and does not flicker.
+    if (render.monte_carlo == MonteCarloShading::automatic && !solution.rgb.glossy.empty())
+        render.monte_carlo = MonteCarloShading::subpatch;
+    BandRenderer renderer(std::move(solution), render, workers, console);
     FrameMonitor silent(console);
     ToneMapping tone{a.exposure, true};
     for (std::uint64_t i = 0; i < frames; ++i) {
@@ -81,6 +86,7 @@ int run(const WalkArguments& a, const Common& common) {
 void add_walk(CLI::App& program, const Common& common, int& exit_code) {
     auto a = std::make_shared<WalkArguments>();
     a->shading.render.direct = DirectShading::stored;
+    a->shading.render.iterations = 8;
     CLI::App* command = program.add_subcommand("walk", "Show a solution along a camera path");
     command->add_option("SOLUTION", a->solution, "what bake wrote: NAME.vtm")->required();
     command
@@ -109,7 +115,7 @@ void add_walk(CLI::App& program, const Common& common, int& exit_code) {
         ->check(within(-100.0, 100.0))
         ->capture_default_str()
         ->group("Output");
-    add_shading_options(*command, a->shading);
+    add_shading_options(*command, a->shading, "subpatch");
     command->callback([a, &common, &exit_code] { exit_code = run(*a, common); });
 }
 

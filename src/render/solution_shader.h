@@ -2,10 +2,9 @@
 /// Monte-Carlo radiance.
 ///
 /// The Monte-Carlo component is estimated by bundles (bundle_gather.h) or, at glossy points, by
-/// rays: a direction of the lobe is followed to
-/// the next surface, and what comes from there, less what the finite elements hold for that
-/// direction, is added to what the lobe makes of them: they are the control variate. What comes
-/// from there is corrected likewise, by Russian roulette.
+/// rays: a direction of the lobe is followed to the next surface, and what comes from there, less
+/// what the finite elements hold for that direction, is added to what the lobe makes of them: they
+/// are the control variate. What comes from there is corrected likewise, by Russian roulette.
 /// Lobes sharper than any direction bin are followed by rays instead (paper §7), through one such
 /// surface after the other.
 #pragma once

@@ -40,9 +40,8 @@ void require_memory(const MemoryEstimate& e, std::uint64_t limit) {
     if (limit == 0 || e.total() <= limit) return;
     throw UsageError(fmt::format(
         "memory: {:.2f} GiB for patches, {:.2f} for light samples, {:.2f} for direction bins{}{}; "
-        "accepted: {:.2f} in all. Fewer leaves, light samples or direction bins need less, light "
-        "vectors (--first-shot "
-        "vectors) less than samples",
+        "accepted: {:.2f} in all. Fewer leaves, light samples or direction bins need less; light "
+        "vectors (--first-shot vectors), less than samples",
         gibibytes(e.patches), gibibytes(e.first_shot), gibibytes(e.direction_bins),
         e.monte_carlo == 0
             ? ""

@@ -68,24 +68,23 @@ std::vector<double> solve_channel(const std::vector<ClusterState>& states,
                                   const ClusterTransfer& transfer, BalanceShape shape,
                                   int channel) {
     const std::uint32_t n = transfer.count;
+    // Residuals have signs. Where they outweigh all else, between clusters that hardly see each
+    // other, next to nothing is received.
+    const auto received = [&](std::uint32_t i, std::uint32_t j) {
+        return std::max(0.0, transfer.at(i, j).radiance[channel]);
+    };
     std::vector<double> sent(n), seen(n);
     for (std::uint32_t j = 0; j < n; ++j)
         for (std::uint32_t i = 0; i <= n; ++i) {
-            sent[j] += transfer.at(i, j).radiance[channel];
+            sent[j] += received(i, j);
             seen[j] += transfer.at(i, j).coverage;
         }
-    // Share of j's flux that reaches i; a dark cluster's by its fragments, and of one whose light
-    // residuals outweigh, which have signs.
-    std::vector<bool> by_fragments(n);
-    for (std::uint32_t j = 0; j < n; ++j) {
-        by_fragments[j] = shape == BalanceShape::flat || !(sent[j] > 0.0);
-        for (std::uint32_t i = 0; i <= n; ++i)
-            if (transfer.at(i, j).radiance[channel] < 0.0) by_fragments[j] = true;
-    }
+    // Share of j's flux that reaches i; a dark cluster's by its fragments.
     const auto share = [&](std::uint32_t i, std::uint32_t j) {
         if (seen[j] == 0.0) return 0.0;
-        if (by_fragments[j]) return transfer.at(i, j).coverage / seen[j];
-        return transfer.at(i, j).radiance[channel] / sent[j];
+        if (shape == BalanceShape::flat || sent[j] == 0.0)
+            return transfer.at(i, j).coverage / seen[j];
+        return received(i, j) / sent[j];
     };
     std::vector<double> matrix(std::size_t{n} * (n + 1)), flux;
     for (std::uint32_t i = 0; i < n; ++i) {

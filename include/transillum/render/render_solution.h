@@ -19,7 +19,7 @@ enum class DirectShading {
 
 /// How the Monte-Carlo component, what finite elements leave out of the reflection, is estimated.
 enum class MonteCarloShading {
-    automatic,  ///< as was measured to be best for a picture
+    automatic,  ///< rays where a surface is glossy, else off: least error in the same time
     off,
     rays,  ///< along glossy lobes of points that are seen, as noise; Lambert surfaces get none
     /// Bundles transferred anew, what they bring constant on the quarters of patches (§3.1.2).
