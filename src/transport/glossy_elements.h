@@ -115,4 +115,17 @@ private:
     float largest_source_ = 0.0f;  ///< beside emission and what the elements reflect
 };
 
+template <class Body>
+void GlossyElements::for_chunks(Body body) const {
+    constexpr std::size_t grain = 16;
+    workers_.for_ranges(chunks_.size(), grain, [&](std::size_t begin, std::size_t end, int) {
+        for (std::size_t c = begin; c < end; ++c) body(chunks_[c]);
+    });
+}
+
+/// Where a mirror would send light that comes from `d`.
+[[nodiscard]] inline glm::vec3 mirrored(const glm::vec3& d) {
+    return {-d.x, -d.y, d.z};
+}
+
 }  // namespace transillum

@@ -296,10 +296,13 @@ TEST_P(Gather, SmallPatchesReceiveWhatTheirPointsDo) {
 class CarriedResidual : public testing::Test {
 protected:
     /// The last of pictures one after the other.
-    static Image last_of(const Solution& s, const std::vector<Camera>& cameras, int bundles) {
+    static Image last_of(const Solution& s, const std::vector<Camera>& cameras, int bundles,
+                         std::uint64_t seed = 1) {
         const Workers workers(2);
         Monitor silent;
-        SolutionRenderer renderer(s, gathering(subpatch, bundles), workers, silent);
+        RenderOptions options = gathering(subpatch, bundles);
+        options.seed = seed;
+        SolutionRenderer renderer(s, options, workers, silent);
         Image image;
         for (const Camera& c : cameras) image = renderer.render(c, workers, silent);
         return image;
@@ -327,7 +330,13 @@ TEST_F(CarriedResidual, StartsFromPlainFiniteElements) {
     const Image plain = picture(s, in_the_room, gathering(off, 1));
     const Image exact = picture(s, in_the_room, gathering(subpatch, 512));
     const double error = compare_images(plain, exact).relative_rmse;
-    EXPECT_LT(compare_images(last_of(s, {in_the_room}, 1), exact).relative_rmse, 1.1 * error);
+    // One bundle more or less, in the mean: some of them meet what is bright.
+    constexpr int seeds = 16;
+    double squares = 0.0;
+    for (int seed = 1; seed <= seeds; ++seed)
+        squares +=
+            std::pow(compare_images(last_of(s, {in_the_room}, 1, seed), exact).relative_rmse, 2.0);
+    EXPECT_LT(std::sqrt(squares / seeds), 1.1 * error);
     EXPECT_LT(compare_images(last_of(s, {in_the_room}, 128), exact).relative_rmse, 0.5 * error);
 }
 
