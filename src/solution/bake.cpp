@@ -87,14 +87,17 @@ SplitChoice find_coarse_leaves(const Solution& s, const PatchHierarchy& patches,
     return choose_splits(s.surface, patches, children, radiance, s.standard_error, direct, options);
 }
 
-/// Divides the bins where the radiance of a phase asks for it.
+/// Divides the bins where the radiance of a phase asks for it. Patches split where it ranges over
+/// more than the tolerance; what is spread evenly over that range deviates by this share of it.
+constexpr double deviation_of_range = 0.288675;  // 1 / sqrt(12)
+
 std::uint32_t divide_bins(const Solution& phase, double tolerance, Refined& refined) {
     std::vector<Spectrum> radiance;
     for (std::uint32_t p = 0; p < phase.patches.patch_count(); ++p)
         radiance.push_back(phase.finite_element_radiance(p));
     BinChoice choice = choose_bins(
         refined.bin_levels, phase.surface, phase.patches, phase.glossy, phase.glossy_elements,
-        tolerance * mean_luminance(phase.surface, phase.patches, radiance));
+        deviation_of_range * tolerance * mean_luminance(phase.surface, phase.patches, radiance));
     refined.bin_levels = std::move(choice.levels);
     return choice.divided;
 }

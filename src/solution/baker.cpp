@@ -47,7 +47,7 @@ void decide_first_shot(const Luminaires& luminaires, FirstShot choice, std::uint
 }
 
 /// How many direction bins patches have, and what they can't hold.
-void decide_bins(const Solution& s, const BinOptions& options, std::vector<Decision>& decisions) {
+void decide_bins(const Solution& s, const BakeOptions& options, std::vector<Decision>& decisions) {
     if (s.glossy.empty()) {
         decisions.push_back({"one direction bin a patch", "no surface has a glossy lobe"});
         return;
@@ -59,7 +59,9 @@ void decide_bins(const Solution& s, const BinOptions& options, std::vector<Decis
     }
     decisions.push_back(
         {fmt::format("{} direction bins on {} glossy patches, one on all others", bins, patches),
-         options.level < 0 ? "by the width and weight of their lobes" : "asked for"});
+         options.bins.level >= 0         ? "asked for"
+         : options.refinement.phases > 0 ? "as the light on them asks for"
+                                         : "by the width and weight of their lobes"});
 }
 
 void decide_monte_carlo(const TransportResult& t, MonteCarlo choice, Averaging averaging,
@@ -99,7 +101,7 @@ std::shared_ptr<const IterationSums> Baker::run(Solution& s, const Refined& refi
 void Baker::prepare(Solution& s, std::span<const std::int8_t> bin_levels) const {
     s.decisions.clear();
     s.glossy = lay_out_glossy_sides(s.surface, s.patches, bin_levels);
-    decide_bins(s, options_.bins, s.decisions);
+    decide_bins(s, options_, s.decisions);
     average_textures(s);
     shoot(s);
     watch_.lap("first shot");
