@@ -2,6 +2,7 @@
 // forms where elements are too coarse for them, and what is carried from picture to picture.
 #include "support/closed_forms.h"
 #include "support/scene_builder.h"
+#include "unit/render/dark_solution.h"
 #include "unit/render/surface_builder.h"
 
 #include <transillum/render/render_solution.h>
@@ -20,7 +21,9 @@
 namespace transillum {
 namespace {
 
+using testing_support::dark_solution;
 using testing_support::Facing;
+using testing_support::glossy;
 using testing_support::polygon_irradiance;
 using testing_support::SceneBuilder;
 
@@ -29,27 +32,10 @@ using enum MonteCarloShading;
 
 /// Elements that hold a radiance of 1 from everywhere.
 Solution uniformly_lit(const SurfaceMesh& surface, int level) {
-    Solution s;
-    s.surface = surface;
-    s.patches = subdivide_to_levels(std::vector<int>(surface.triangles.size(), level));
-    s.glossy = lay_out_glossy_sides(surface, s.patches, choose_bin_levels(surface, {}));
+    Solution s = dark_solution(surface, level);
     s.glossy_elements.assign(s.glossy.element_count, Spectrum(1.0f));
-    s.direct_irradiance.assign(s.patches.patch_count(), Spectrum(0.0f));
-    s.standard_error = s.direct_irradiance;
     s.indirect_irradiance.assign(s.patches.patch_count(), Spectrum(pi));
-    s.coverage.assign(s.patches.patch_count(), 1.0f);
-    s.direct.shot_sides.assign(2 * surface.triangles.size(), 0);
     return s;
-}
-
-Material surface_of(Lobe lobe, float diffuse, float specular, float shininess, float roughness) {
-    Material m;
-    m.lobe = lobe;
-    m.diffuse = Spectrum(diffuse);
-    m.specular = Spectrum(specular);
-    m.shininess = shininess;
-    m.roughness = roughness;
-    return m;
 }
 
 Camera camera_at(const glm::dvec3& eye, const glm::dvec3& at, double fov = 60.0) {
@@ -90,14 +76,14 @@ INSTANTIATE_TEST_SUITE_P(Representations, Gather, testing::Values(subpatch, wave
                          });
 
 class GatherInFurnace : public testing::TestWithParam<std::tuple<MonteCarloShading, Material>> {};
-INSTANTIATE_TEST_SUITE_P(
-    Lobes, GatherInFurnace,
-    testing::Combine(testing::Values(subpatch, wavefront),
-                     testing::Values(surface_of(Lobe::none, 0.7f, 0.0f, 1, 1),
-                                     surface_of(Lobe::max_phong, 0.3f, 0.5f, 3, 1),
-                                     surface_of(Lobe::max_phong, 0.0f, 0.9f, 10, 1),
-                                     surface_of(Lobe::ggx, 0.5f, 0.04f, 0, 0.6f),
-                                     surface_of(Lobe::ggx, 0.3f, 0.6f, 0, 0.5f))));
+INSTANTIATE_TEST_SUITE_P(Lobes, GatherInFurnace,
+                         testing::Combine(testing::Values(subpatch, wavefront),
+                                          testing::Values(glossy(Lobe::none, 0.7f, 0.0f, 1, 1),
+                                                          glossy(Lobe::max_phong, 0.3f, 0.5f, 3, 1),
+                                                          glossy(Lobe::max_phong, 0.0f, 0.9f, 10,
+                                                                 1),
+                                                          glossy(Lobe::ggx, 0.5f, 0.04f, 0, 0.6f),
+                                                          glossy(Lobe::ggx, 0.3f, 0.6f, 0, 0.5f))));
 
 /// Radiance is sent in steps of 2^-20 of the brightest and more, and sums are of some dozens of
 /// floats: within 1e-5 there is nothing to add, however few the bundles.
@@ -212,7 +198,7 @@ Solution glossy_block() {
     SceneBuilder b;
     b.scene.materials[0].diffuse = Spectrum(0.7f, 0.5f, 0.3f);
     const auto lamp = b.material(Spectrum(0.0f), Spectrum(2.0f));
-    b.scene.materials.push_back(surface_of(Lobe::max_phong, 0.2f, 0.6f, 10, 1));
+    b.scene.materials.push_back(glossy(Lobe::max_phong, 0.2f, 0.6f, 10, 1));
     b.box({0, 0, 0}, {1, 1, 1}, Facing::inwards);
     b.polygon({{0.3, 0.3, 0.99}, {0.3, 0.7, 0.99}, {0.7, 0.7, 0.99}, {0.7, 0.3, 0.99}}, lamp);
     b.box({0.3, 0.3, 0.0}, {0.7, 0.7, 0.4}, Facing::outwards, 2);

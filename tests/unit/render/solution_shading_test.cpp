@@ -2,6 +2,7 @@
 // tracer.
 #include "support/closed_forms.h"
 #include "support/scene_builder.h"
+#include "unit/render/dark_solution.h"
 #include "unit/render/surface_builder.h"
 
 #include <transillum/render/path_trace.h>
@@ -24,38 +25,17 @@
 namespace transillum {
 namespace {
 
+using testing_support::dark_solution;
 using testing_support::Estimate;
 using testing_support::estimate;
 using testing_support::Facing;
+using testing_support::glossy;
 using testing_support::Recorder;
 using testing_support::SceneBuilder;
 using testing_support::SurfaceBuilder;
 
 constexpr float pi = std::numbers::pi_v<float>;
 
-/// Everything black, and room for all that a solution holds.
-Solution dark_solution(const SurfaceMesh& surface, int level) {
-    Solution s;
-    s.surface = surface;
-    s.patches = subdivide_to_levels(std::vector<int>(surface.triangles.size(), level));
-    s.glossy = lay_out_glossy_sides(surface, s.patches, choose_bin_levels(surface, {}));
-    s.glossy_elements.assign(s.glossy.element_count, Spectrum(0.0f));
-    s.direct_irradiance.assign(s.patches.patch_count(), Spectrum(0.0f));
-    s.indirect_irradiance = s.standard_error = s.direct_irradiance;
-    s.coverage.assign(s.patches.patch_count(), 1.0f);
-    s.direct.shot_sides.assign(2 * surface.triangles.size(), 0);
-    return s;
-}
-
-Material glossy(Lobe lobe, float diffuse, float specular, float shininess, float roughness) {
-    Material m;
-    m.lobe = lobe;
-    m.diffuse = Spectrum(diffuse);
-    m.specular = Spectrum(specular);
-    m.shininess = shininess;
-    m.roughness = roughness;
-    return m;
-}
 Material mirror() {
     return glossy(Lobe::ggx, 0.0f, 1.0f, 0.0f, 0.0f);
 }
