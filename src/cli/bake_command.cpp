@@ -142,7 +142,8 @@ void add_options(CLI::App& command, BakeArguments& a) {
         ->group(method);
     add_choice(command, "--brdf-bins", a.bake.bins.level,
                {{"auto", -1}, {"1", 0}, {"4", 1}, {"16", 2}, {"64", 3}},
-               "direction bins of glossy patches; auto: by the width and weight of the lobe")
+               "direction bins of glossy patches; auto: by the width and weight of the lobe, and "
+               "with --refine by the light")
         ->group(method);
     command
         .add_option("--memory", a.memory,
@@ -161,7 +162,8 @@ void add_options(CLI::App& command, BakeArguments& a) {
     add_choice(
         command, "--averaging", iteration.averaging,
         {{"balanced", Averaging::balanced}, {"paper", Averaging::paper}, {"none", Averaging::none}},
-        "how iterations are averaged; paper: 1/m, for comparison")
+        "how iterations are averaged; for comparison, paper: 1/m; none: plain ray bundles, "
+        "nothing is fed back but the last")
         ->group(method);
     command.add_option("--seed", a.bake.seed, "of the directions and light samples")
         ->capture_default_str()
