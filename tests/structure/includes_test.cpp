@@ -13,9 +13,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<const char*, 9> stages{"base",       "scene",      "geometry",
-                                            "visibility", "first_shot", "transport",
-                                            "solution",   "render",     "cli"};
+constexpr std::array<const char*, 10> stages{"base",       "scene",      "repair",    "geometry",
+                                             "visibility", "first_shot", "transport", "solution",
+                                             "render",     "cli"};
 
 std::ptrdiff_t rank(const std::string& stage) {
     return std::ranges::find(stages, stage) - stages.begin();

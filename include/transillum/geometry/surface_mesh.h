@@ -2,6 +2,7 @@
 #pragma once
 
 #include <transillum/base/monitor.h>
+#include <transillum/repair/snap_grid.h>
 #include <transillum/scene/scene.h>
 
 #include <array>
@@ -22,14 +23,6 @@ struct RootTriangle {
     std::uint32_t material = 0;
     std::uint32_t object = 0;
     std::uint32_t source_face = 0;
-};
-
-/// The dyadic grid that vertices are snapped to: coordinate = integer * spacing, spacing =
-/// 2^exponent, integers below 2^40, so that 1-to-4 midpoints down to 12 levels are exact in double
-/// (design: exact subdivision).
-struct SnapGrid {
-    int exponent = 0;
-    double largest_move = 0.0;  ///< the furthest any vertex was moved
 };
 
 struct SurfaceMesh {

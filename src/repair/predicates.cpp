@@ -1,4 +1,4 @@
-#include "geometry/predicates.h"
+#include "repair/predicates.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 

@@ -1,4 +1,4 @@
-#include "geometry/triangulate.h"
+#include "repair/triangulate.h"
 
 #include <transillum/base/sampling.h>
 

@@ -1,0 +1,65 @@
+/// Counts and locates what is wrong with a scene's meshes. Changes nothing.
+#pragma once
+
+#include <transillum/base/monitor.h>
+#include <transillum/base/parallel.h>
+#include <transillum/repair/defects.h>
+#include <transillum/repair/triangle_soup.h>
+
+#include <string>
+#include <vector>
+
+namespace transillum {
+
+struct CheckOptions {
+    double tolerance = 4e-7;   ///< near vertices and T-junctions, over the scene's diagonal
+    double needle = 1e-4;      ///< height over longest edge, below which a face is a needle
+    double thin_wall = 1e-4;   ///< thickness over the diagonal, below which a wall is thin
+    double leak_width = 0.01;  ///< over the diagonal; wider ways out are openings, not leaks
+    bool leaks = true;         ///< resolves intersections first, which takes the most time
+};
+
+/// Faces that hang together by edges of two faces.
+struct Component {
+    std::uint64_t faces = 0;
+    std::uint32_t object = 0;  ///< of its first face
+    bool closed = false;       ///< every edge has two faces
+    bool orientable = true;
+    double volume = 0.0;        ///< enclosed, negative when inside out; 0 unless closed
+    std::uint64_t borders = 0;  ///< loops of border edges
+};
+
+/// A way from outside the scene to a luminaire or camera.
+struct Leak {
+    std::string from;                  ///< "luminaire 'lamp'", "camera 'front'"
+    std::vector<glm::dvec3> path;      ///< from there to outside
+    double length = 0.0, width = 0.0;  ///< [scene units]; width: of the narrowest gap it passes
+    bool is_opening = false;           ///< wider than a leak
+};
+
+struct ObjectCounts {
+    std::string name;
+    std::uint64_t triangles = 0;
+    DefectCounts counts{};  ///< a pair of two objects counts for both
+};
+
+struct CheckReport {
+    std::uint64_t polygons = 0, triangles = 0, vertices = 0;
+    double diagonal = 0.0;
+    double tolerance = 0.0, thin_wall = 0.0;  ///< [scene units]
+    DefectCounts counts{};
+    std::vector<ObjectCounts> objects;  ///< as Scene::objects
+    std::vector<Component> components;
+    std::vector<Leak> leaks;
+    bool leaks_searched = false;    ///< else there is nothing to start from, or no wish
+    double thinnest_wall = 0.0;     ///< [scene units]; 0 without thin walls
+    std::vector<DefectSite> sites;  ///< every one, in the order of Defect
+
+    [[nodiscard]] bool is_sound() const;  ///< nothing harmful
+};
+
+/// \throws InputError on a coordinate that is no finite number or when there is no polygon.
+[[nodiscard]] CheckReport check_scene(const Scene& scene, const CheckOptions& options,
+                                      const Workers& workers, Monitor& monitor);
+
+}  // namespace transillum

@@ -1,0 +1,56 @@
+/// What check counts and repair mends, found once for both.
+#pragma once
+
+#include <transillum/repair/triangle_soup.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace transillum {
+
+/// Vertices within `tolerance` [scene units] of an earlier one that no edge joins them to.
+/// \returns for every vertex the one to take in its place: itself, or an earlier one that is taken
+/// for itself. Vertices of one triangle are never joined.
+[[nodiscard]] std::vector<std::uint32_t> find_near_vertices(const TriangleSoup& soup,
+                                                            double tolerance);
+
+enum class FaceFault : std::uint8_t { none, repeated_index, zero_area, duplicate, opposite };
+
+struct FaultyFace {
+    FaceFault fault = FaceFault::none;
+    std::uint32_t first = 0;  ///< of a duplicate or opposite: the face to keep
+};
+
+/// One entry a triangle. Zero area: three vertices exactly on one line, or so nearly that the cross
+/// product rounds to nothing. Of faces on the same three vertices an emitting one is kept before
+/// others, then the earliest; `opposite` needs the same material on both, others are walls of two
+/// materials and are told as `none`.
+[[nodiscard]] std::vector<FaultyFace> find_faulty_faces(const TriangleSoup& soup,
+                                                        const Scene& scene);
+
+/// A vertex within the tolerance of the inside of an edge that has one face only, and not a corner
+/// of that face; the vertex is itself on such an edge.
+struct TJunction {
+    std::uint32_t triangle = 0;
+    std::uint32_t edge = 0;  ///< from corner `edge` to the next
+    std::uint32_t vertex = 0;
+    double parameter = 0.0;  ///< along the edge, in (0, 1)
+};
+
+/// By triangle, edge and parameter. \pre no faulty faces
+[[nodiscard]] std::vector<TJunction> find_t_junctions(const TriangleSoup& soup, double tolerance);
+
+struct Flips {
+    std::vector<bool> turn;             ///< one a triangle
+    std::vector<bool> non_orientable;   ///< part of a component that has no such orientation
+    std::vector<bool> emits_both_ways;  ///< part of one that emitters keep from it
+};
+
+/// Which triangles to turn so that all that hang together by edges of two faces run alike. Of the
+/// two ways, the one that keeps more of the area of what emits from its front alone, as turning it
+/// would change the light; such an emitter on the other way keeps the component as it is. Without
+/// emitters, the way that keeps more of the area; where less than three fifths agree, closed
+/// components turn outwards. Components that are consistent are never turned.
+[[nodiscard]] Flips find_flips(const TriangleSoup& soup, const Scene& scene);
+
+}  // namespace transillum

@@ -1,0 +1,30 @@
+/// Pairs of triangles that meet where they should not: by exact predicates on the doubles.
+#pragma once
+
+#include <transillum/base/parallel.h>
+#include <transillum/repair/triangle_soup.h>
+
+#include <vector>
+
+namespace transillum {
+
+enum class Meeting : std::uint8_t {
+    touching,  ///< in points or along edges only, but not (only) in shared vertices and edges: a
+               ///< vertex on a face or edge, edges that cross or run along each other
+    crossing,  ///< one passes through the other
+    overlap    ///< they share area of one plane
+};
+
+struct MeetingPair {
+    std::uint32_t a = 0, b = 0;  ///< triangles, a < b
+    Meeting kind{};
+
+    bool operator==(const MeetingPair&) const = default;
+};
+
+/// All of them, by a and b. \pre the soup has no triangle without area, and no two on the same
+/// three vertices.
+[[nodiscard]] std::vector<MeetingPair> find_intersections(const TriangleSoup& soup,
+                                                          const Workers& workers);
+
+}  // namespace transillum

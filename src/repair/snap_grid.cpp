@@ -1,0 +1,58 @@
+#include <transillum/repair/snap_grid.h>
+
+#include "repair/used_positions.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace transillum {
+
+namespace {
+
+constexpr int grid_bits = 40;
+
+glm::dvec3 to_floats(const glm::dvec3& p) {
+    return {static_cast<double>(static_cast<float>(p.x)),
+            static_cast<double>(static_cast<float>(p.y)),
+            static_cast<double>(static_cast<float>(p.z))};
+}
+
+}  // namespace
+
+SnapGrid dyadic_grid(const Scene& scene) {
+    const std::vector<bool> used = used_positions(scene);
+    double largest = 0.0;
+    for (std::size_t i = 0; i < scene.positions.size(); ++i) {
+        const glm::dvec3 p = glm::abs(scene.positions[i]);
+        if (used[i]) largest = std::max({largest, p.x, p.y, p.z});
+    }
+    if (largest == 0.0) return {-grid_bits, 0.0};
+    int exponent = 0;
+    std::frexp(largest, &exponent);  // largest < 2^exponent
+    return {exponent - grid_bits, 0.0};
+}
+
+glm::dvec3 snap(const glm::dvec3& p, const SnapGrid& grid) {
+    const auto round = [&](double x) {
+        return std::ldexp(std::nearbyint(std::ldexp(x, -grid.exponent)), grid.exponent) + 0.0;
+    };
+    return {round(p.x), round(p.y), round(p.z)};
+}
+
+SnapGrid snap_scene(Scene& scene, Rounding rounding) {
+    SnapGrid grid = dyadic_grid(scene);
+    if (rounding == Rounding::doubles) return grid;
+    const std::vector<bool> used = used_positions(scene);
+    for (std::size_t i = 0; i < scene.positions.size(); ++i) {
+        if (!used[i]) continue;
+        glm::dvec3& p = scene.positions[i];
+        const glm::dvec3 rounded = rounding == Rounding::floats ? to_floats(p) : snap(p, grid);
+        grid.largest_move = std::max(grid.largest_move, glm::length(rounded - p));
+        p = rounded;
+    }
+    return grid;
+}
+
+}  // namespace transillum
