@@ -3,7 +3,6 @@
 #include <transillum/repair/triangle_soup.h>
 
 #include "geometry/find_fans.h"
-#include "repair/predicates.h"
 
 #include <glm/geometric.hpp>
 
@@ -21,17 +20,12 @@ std::array<std::uint32_t, 3> turned(std::array<std::uint32_t, 3> v) {
     return v;
 }
 
-/// On one line, or so nearly that the cross product rounds to nothing and there is no normal.
-bool has_no_area(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
-    return are_collinear(a, b, c) || glm::cross(b - a, c - a) == glm::dvec3(0.0);
-}
-
-void add_triangle(const TriangleSoup& soup, std::size_t number, const Scene& scene,
+void add_triangle(const TriangleSoup& soup, std::uint32_t number, const Scene& scene,
                   std::set<std::array<std::uint32_t, 3>>& seen, SurfaceMesh& mesh,
                   SurfaceReport& report) {
     const SoupTriangle& triangle = soup.triangles[number];
     const auto& v = triangle.vertices;
-    if (has_no_area(soup.positions[v[0]], soup.positions[v[1]], soup.positions[v[2]])) {
+    if (!has_area(soup, number)) {
         ++report.degenerate;
         return;
     }
@@ -90,7 +84,7 @@ SurfaceMesh build_surface(const Scene& scene, const SurfaceOptions& options, Mon
     counts.welded = met.welded;
     counts.degenerate = met.without_area;
     std::set<std::array<std::uint32_t, 3>> seen;
-    for (std::size_t i = 0; i < soup.triangles.size(); ++i)
+    for (std::uint32_t i = 0; i < soup.triangles.size(); ++i)
         add_triangle(soup, i, scene, seen, mesh, counts);
     mesh.positions = std::move(soup.positions);
     counts.triangles = mesh.triangles.size();

@@ -2,6 +2,7 @@
 #include <transillum/base/sampling.h>
 #include <transillum/repair/triangle_soup.h>
 
+#include "repair/predicates.h"
 #include "repair/triangulate.h"
 #include "repair/used_positions.h"
 
@@ -93,6 +94,12 @@ glm::dvec3 area_vector(const TriangleSoup& soup, std::uint32_t triangle) {
     const auto& v = soup.triangles[triangle].vertices;
     const glm::dvec3& a = soup.positions[v[0]];
     return glm::cross(soup.positions[v[1]] - a, soup.positions[v[2]] - a);
+}
+
+bool has_area(const TriangleSoup& soup, std::uint32_t triangle) {
+    const auto& v = soup.triangles[triangle].vertices;
+    return area_vector(soup, triangle) != glm::dvec3(0.0) &&
+           !are_collinear(soup.positions[v[0]], soup.positions[v[1]], soup.positions[v[2]]);
 }
 
 double diagonal_of(const TriangleSoup& soup) {

@@ -132,8 +132,8 @@ TEST_P(LibraryHome, IsIncludedNowhereElse) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Structure, LibraryHome,
-                         testing::Values(Home{"CGAL", "CGAL/.*", {"geometry"}},
-                                         Home{"OpenMesh", "OpenMesh/.*", {"geometry"}},
+                         testing::Values(Home{"CGAL", "CGAL/.*", {"repair"}},
+                                         Home{"OpenMesh", "OpenMesh/.*", {"repair", "geometry"}},
                                          Home{"Embree", "embree3?/.*", {"visibility"}},
                                          Home{"VTK", "vtk.*", {"solution"}},
                                          Home{"OpenImageIO", "OpenImageIO/.*", {"scene", "render"}},

@@ -39,6 +39,10 @@ struct SoupCounts {
 /// Twice the area vector; its direction is the front's.
 [[nodiscard]] glm::dvec3 area_vector(const TriangleSoup& soup, std::uint32_t triangle);
 
+/// False where its vertices are on one line (exactly), or so nearly that the cross product rounds
+/// to nothing and there is no normal.
+[[nodiscard]] bool has_area(const TriangleSoup& soup, std::uint32_t triangle);
+
 /// Length of the diagonal of the box around all vertices; 0 without any.
 [[nodiscard]] double diagonal_of(const TriangleSoup& soup);
 
