@@ -3,6 +3,7 @@
 
 #include <transillum/repair/triangle_soup.h>
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -28,8 +29,14 @@ struct FaultyFace {
 [[nodiscard]] std::vector<FaultyFace> find_faulty_faces(const TriangleSoup& soup,
                                                         const Scene& scene);
 
+/// Pairs of faces on the same three vertices, wound against each other, of two materials: of each
+/// winding the face that find_faulty_faces keeps. By the earlier, then the later.
+[[nodiscard]] std::vector<std::array<std::uint32_t, 2>> find_two_material_walls(
+    const TriangleSoup& soup, const Scene& scene);
+
 /// A vertex within the tolerance of the inside of an edge that has one face only, and not a corner
-/// of that face; the vertex is itself on such an edge.
+/// of that face; the vertex is itself on such an edge. Inside: further than the tolerance from both
+/// ends.
 struct TJunction {
     std::uint32_t triangle = 0;
     std::uint32_t edge = 0;  ///< from corner `edge` to the next
@@ -50,7 +57,8 @@ struct Flips {
 /// two ways, the one that keeps more of the area of what emits from its front alone, as turning it
 /// would change the light; such an emitter on the other way keeps the component as it is. Without
 /// emitters, the way that keeps more of the area; where less than three fifths agree, closed
-/// components turn outwards. Components that are consistent are never turned.
+/// components turn outwards. Components that are consistent or non-orientable are never turned.
+/// What repeats a vertex hangs on nothing.
 [[nodiscard]] Flips find_flips(const TriangleSoup& soup, const Scene& scene);
 
 }  // namespace transillum

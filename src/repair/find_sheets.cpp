@@ -1,0 +1,111 @@
+#include "repair/find_sheets.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <numeric>
+
+namespace transillum {
+
+namespace {
+
+constexpr std::uint32_t none = 0xffffffffu;
+
+/// Disjoint sets whose members know whether they run like their set's first.
+class TurnSets {
+public:
+    explicit TurnSets(std::size_t n) : parent_(n), turned_(n, 0) {
+        std::iota(parent_.begin(), parent_.end(), 0u);
+    }
+
+    struct Place {
+        std::uint32_t root;
+        bool turned;
+    };
+    Place find(std::uint32_t i) {
+        std::uint32_t root = i;
+        std::uint8_t turned = 0;
+        for (; parent_[root] != root; root = parent_[root]) turned ^= turned_[root];
+        for (std::uint8_t rest = turned; parent_[i] != root && i != root;) {
+            const std::uint32_t next = parent_[i];
+            const std::uint8_t step = turned_[i];
+            parent_[i] = root;
+            turned_[i] = rest;
+            rest ^= step;
+            i = next;
+        }
+        return {root, turned != 0};
+    }
+
+    /// False where the two are joined already, the other way.
+    bool join(std::uint32_t a, std::uint32_t b, bool turned) {
+        const Place at_a = find(a), at_b = find(b);
+        const bool between = at_a.turned ^ at_b.turned ^ turned;
+        if (at_a.root == at_b.root) return !between;
+        // The smallest index leads, so that numbering follows the file.
+        const auto [first, later] = std::minmax(at_a.root, at_b.root);
+        parent_[later] = first;
+        turned_[later] = between;
+        return true;
+    }
+
+private:
+    std::vector<std::uint32_t> parent_;
+    std::vector<std::uint8_t> turned_;  ///< against the parent
+};
+
+/// Six times the volume under a triangle, seen from a point.
+double cone_of(const TriangleSoup& soup, std::uint32_t triangle, const glm::dvec3& tip) {
+    const auto& v = soup.triangles[triangle].vertices;
+    return glm::dot(soup.positions[v[0]] - tip,
+                    glm::cross(soup.positions[v[1]] - tip, soup.positions[v[2]] - tip));
+}
+
+}  // namespace
+
+Sheets find_sheets(const TriangleSoup& soup, const EdgeTable& edges) {
+    const auto count = static_cast<std::uint32_t>(soup.triangles.size());
+    TurnSets sets(count);
+    std::vector<std::uint32_t> twisted;
+    for (std::uint32_t e = 0; e < edges.size(); ++e) {
+        if (edges[e].size() != 2) continue;
+        const EdgeUse& a = edges[e][0];
+        const EdgeUse& b = edges[e][1];
+        if (!sets.join(a.triangle(), b.triangle(), a.ascending == b.ascending))
+            twisted.push_back(a.triangle());
+    }
+    Sheets sheets;
+    sheets.sheet.resize(count);
+    sheets.turned.resize(count);
+    std::vector<std::uint32_t> number(count, none), first;
+    for (std::uint32_t t = 0; t < count; ++t) {
+        const auto [root, turned] = sets.find(t);
+        if (number[root] == none) {
+            number[root] = static_cast<std::uint32_t>(first.size());
+            first.push_back(t);
+        }
+        sheets.sheet[t] = number[root];
+        sheets.turned[t] = turned;
+    }
+    sheets.orientable.assign(first.size(), true);
+    sheets.mixed.assign(first.size(), false);
+    sheets.closed.assign(first.size(), true);
+    sheets.volume.assign(first.size(), 0.0);
+    for (const std::uint32_t t : twisted) sheets.orientable[sheets.sheet[t]] = false;
+    for (std::uint32_t e = 0; e < edges.size(); ++e)
+        if (edges[e].size() != 2)
+            for (const EdgeUse& use : edges[e]) sheets.closed[sheets.sheet[use.triangle()]] = false;
+    for (std::uint32_t t = 0; t < count; ++t) {
+        const std::uint32_t s = sheets.sheet[t];
+        if (repeats_vertex(soup.triangles[t])) sheets.closed[s] = false;
+        if (sheets.turned[t]) sheets.mixed[s] = true;
+        // Seen from a vertex of the sheet, so that places far from the origin cost no digits.
+        const glm::dvec3& tip = soup.positions[soup.triangles[first[s]].vertices[0]];
+        sheets.volume[s] += (sheets.turned[t] ? -1.0 : 1.0) * cone_of(soup, t, tip) / 6.0;
+    }
+    for (std::size_t s = 0; s < sheets.size(); ++s)
+        if (!sheets.closed[s] || !sheets.orientable[s]) sheets.volume[s] = 0.0;
+    return sheets;
+}
+
+}  // namespace transillum

@@ -1,0 +1,60 @@
+#include "repair/find_defects.h"
+#include "unit/repair/placed_scene.h"
+
+#include <numeric>
+
+namespace transillum {
+namespace {
+
+using NearVertices = testing_support::Placed;
+using Indices = std::vector<std::uint32_t>;
+
+constexpr double gap = 0x1p-24;  // exact beside 4096
+
+Indices all_of(std::size_t n) {
+    Indices indices(n);
+    std::iota(indices.begin(), indices.end(), 0u);
+    return indices;
+}
+
+TEST_P(NearVertices, AreTakenForTheEarlierOne) {
+    made.polygon({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+    made.polygon({{1 + gap, 0, 0}, {1, 1, 0}, {0, 1 + 4 * gap, 0}});
+    const TriangleSoup soup = make_soup(made.scene);
+    Indices expected = all_of(6);
+    expected[3] = 1;
+    EXPECT_EQ(find_near_vertices(soup, 2 * gap * GetParam().scale), expected);
+    expected[5] = 2;
+    EXPECT_EQ(find_near_vertices(soup, 4 * gap * GetParam().scale), expected);
+    EXPECT_EQ(find_near_vertices(soup, 0.0), all_of(6));
+}
+
+TEST_P(NearVertices, OfOneTriangleAreKeptApart) {
+    made.polygon({{0, 0, 0}, {gap, 0, 0}, {0, 1, 0}});
+    // One vertex near both ends of that edge, and one that lies between: only one may join each.
+    made.polygon({{0, -gap, 0}, {1, -1, 0}, {1, 0, 0}});
+    const TriangleSoup soup = make_soup(made.scene);
+    Indices expected = all_of(6);
+    expected[3] = 0;
+    EXPECT_EQ(find_near_vertices(soup, 8 * gap * GetParam().scale), expected);
+}
+
+TEST_P(NearVertices, OfOneTriangleAreNotJoinedByWayOfAThird) {
+    made.polygon({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}});
+    made.polygon({{gap, 0, 0}, {0, gap, 0}, {-1, 1, 0}});
+    Indices expected = all_of(6);
+    expected[3] = 0;  // and 4, of the same triangle as 3, is not
+    EXPECT_EQ(find_near_vertices(make_soup(made.scene), 8 * gap * GetParam().scale), expected);
+}
+
+TEST_P(NearVertices, JoinInChainsOnlyAsFarAsTheTolerance) {
+    for (int i = 0; i < 8; ++i)
+        made.polygon({{i * gap, 0, 0}, {1.0 + i, 1, 0}, {1.0 + i, 2, 1.0 + i}});
+    const auto taken = find_near_vertices(make_soup(made.scene), 2.5 * gap * GetParam().scale);
+    for (std::uint32_t i = 0; i < 8; ++i) EXPECT_EQ(taken[3 * i], 3 * (i - i % 3));
+}
+
+TRANSILLUM_AT_ALL_PLACES(NearVertices);
+
+}  // namespace
+}  // namespace transillum
