@@ -54,4 +54,13 @@ VertexCorners::VertexCorners(const TriangleSoup& soup) : first_(soup.positions.s
             corners_[next[soup.triangles[t].vertices[c]]++] = 3 * t + c;
 }
 
+std::vector<bool> border_vertices(const TriangleSoup& soup) {
+    std::vector<bool> is_on_border(soup.positions.size(), false);
+    const EdgeTable edges(soup);
+    for (std::uint32_t e = 0; e < edges.size(); ++e)
+        if (edges[e].size() == 1)
+            is_on_border[edges[e].front().low] = is_on_border[edges[e].front().high] = true;
+    return is_on_border;
+}
+
 }  // namespace transillum

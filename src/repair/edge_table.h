@@ -36,6 +36,9 @@ private:
     std::vector<std::uint32_t> first_;  ///< one an edge, and the end
 };
 
+/// One entry a position: is it an end of an edge of one triangle?
+[[nodiscard]] std::vector<bool> border_vertices(const TriangleSoup& soup);
+
 /// The sides whose triangle has its corner there: for each vertex, 3 * triangle + corner.
 class VertexCorners {
 public:

@@ -9,7 +9,8 @@
 
 namespace transillum {
 
-/// Vertices within `tolerance` [scene units] of an earlier one that no edge joins them to.
+/// Vertices within `tolerance` [scene units] of an earlier one that no edge joins them to, both of
+/// them on border edges: cracks. Others that are near are thin parts of a surface.
 /// \returns for every vertex the one to take in its place: itself, or an earlier one that is taken
 /// for itself. Vertices of one triangle are never joined.
 [[nodiscard]] std::vector<std::uint32_t> find_near_vertices(const TriangleSoup& soup,

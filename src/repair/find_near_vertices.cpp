@@ -83,6 +83,7 @@ std::vector<std::uint32_t> find_near_vertices(const TriangleSoup& soup, double t
     std::vector<std::uint32_t> taken(soup.positions.size());
     std::iota(taken.begin(), taken.end(), 0u);
     if (soup.positions.empty() || !(tolerance > 0.0)) return taken;
+    const std::vector<bool> is_on_border = border_vertices(soup);
     const VertexCorners corners(soup);
     const auto share_triangle = [&](std::uint32_t a, std::uint32_t b) {
         return std::ranges::any_of(corners[a], [&](std::uint32_t corner) {
@@ -93,6 +94,7 @@ std::vector<std::uint32_t> find_near_vertices(const TriangleSoup& soup, double t
     VertexGrid grid(soup.positions, tolerance);
     std::vector<std::uint32_t> next_joined(soup.positions.size(), none);
     for (std::uint32_t v = 0; v < soup.positions.size(); ++v) {
+        if (!is_on_border[v]) continue;
         const std::uint32_t near = grid.nearest(v, [&](std::uint32_t candidate) {
             for (std::uint32_t i = candidate; i != none; i = next_joined[i])
                 if (share_triangle(v, i)) return false;

@@ -41,7 +41,8 @@ public:
         if (options_.level == RepairLevel::full) {
             meet_in_edges();
             // What is cut may leave vertices close to others again.
-            for (int i = 0; i < 3 && close_cracks(); ++i) meet_in_edges();
+            for (int i = 0; i < 3 && report_.pairs_left == 0; ++i)
+                if (!try_to_close_cracks()) break;
         }
         orient();
     }
@@ -102,6 +103,9 @@ private:
             if (monitor_.stop_requested()) break;
             cut(pairs);
             std::vector<MeetingPair> next = find_pairs();
+            if (getenv("DBG"))
+                fprintf(stderr, "round %d: %zu -> %zu, %zu triangles, spacing %g\n", round,
+                        pairs.size(), next.size(), soup_.triangles.size(), spacing);
             const bool helped = 2 * next.size() <= pairs.size();
             if (!next.empty() && (round == 0 || next.size() < least)) {
                 best = soup_;
@@ -145,6 +149,21 @@ private:
         if (options_.rounding == Rounding::dyadic)
             finest = std::ldexp(1.0, rounding_.grid.exponent);
         return std::max(room * finest, std::ldexp(1.0, std::ilogb(diagonal_) - coarse_bits));
+    }
+
+    /// Not at the price of intersections that can't be resolved. \returns whether there were any
+    bool try_to_close_cracks() {
+        const TriangleSoup before = soup_;
+        const RepairReport report_before = report_;
+        if (!close_cracks()) return false;
+        meet_in_edges();
+        if (report_.pairs_left == 0) return true;
+        soup_ = before;
+        report_ = report_before;
+        report_.left.push_back(
+            "near vertices and T-junctions: joining them makes intersections that rounding brings "
+            "back");
+        return false;
     }
 
     /// Joins near vertices, and edges to vertices that lie on them.

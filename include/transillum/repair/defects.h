@@ -11,7 +11,8 @@ namespace transillum {
 /// In the order of reports. Thresholds are in CheckOptions.
 enum class Defect : std::uint8_t {
     duplicate_vertex,     ///< at exactly the place of an earlier one
-    near_vertex,          ///< within the tolerance of an earlier one that no edge joins it to
+    near_vertex,          ///< within the tolerance of an earlier one that no edge joins it to, both
+                          ///< on border edges
     repeated_index,       ///< a triangle that names a vertex twice
     zero_area,            ///< three vertices on one line
     needle,               ///< thinner than the threshold, relative to its longest edge
