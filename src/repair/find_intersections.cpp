@@ -47,7 +47,8 @@ void classify(const TriangleSoup& soup, const Candidates& candidates, const Work
 
 }  // namespace
 
-std::vector<MeetingPair> find_intersections(const TriangleSoup& soup, const Workers& workers) {
+std::vector<MeetingPair> find_intersections(const TriangleSoup& soup, const Workers& workers,
+                                            std::size_t most) {
     std::vector<Box> boxes = boxes_of(soup);
     std::vector<MeetingPair> pairs;
     Candidates candidates;
@@ -55,11 +56,17 @@ std::vector<MeetingPair> find_intersections(const TriangleSoup& soup, const Work
         classify(soup, candidates, workers, pairs);
         candidates.clear();
     };
-    CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box& a, const Box& b) {
+    struct TooMany {};
+    const auto add = [&](const Box& a, const Box& b) {
         candidates.emplace_back(a.info(), b.info());
         if (candidates.size() == batch) flush();
-    });
-    flush();
+        if (pairs.size() > most) throw TooMany();  // the search has no other way to end early
+    };
+    try {
+        CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), add);
+        flush();
+    } catch (const TooMany&) {
+    }
     std::ranges::sort(pairs, {}, [](const MeetingPair& p) { return std::tuple(p.a, p.b); });
     return pairs;
 }

@@ -22,9 +22,10 @@ struct MeetingPair {
     bool operator==(const MeetingPair&) const = default;
 };
 
-/// All of them, by a and b. \pre the soup has no triangle without area, and no two on the same
-/// three vertices.
+/// All of them, by a and b; where there are more than `most`, some that are. \pre the soup has no
+/// triangle without area, and no two on the same three vertices.
 [[nodiscard]] std::vector<MeetingPair> find_intersections(const TriangleSoup& soup,
-                                                          const Workers& workers);
+                                                          const Workers& workers,
+                                                          std::size_t most = SIZE_MAX);
 
 }  // namespace transillum

@@ -110,4 +110,21 @@ std::vector<std::uint32_t> find_near_vertices(const TriangleSoup& soup, double t
     return taken;
 }
 
+std::vector<std::uint32_t> find_close_vertices(const TriangleSoup& soup,
+                                               const std::vector<bool>& which, double tolerance) {
+    std::vector<std::uint32_t> taken(soup.positions.size());
+    std::iota(taken.begin(), taken.end(), 0u);
+    if (soup.positions.empty() || !(tolerance > 0.0)) return taken;
+    VertexGrid grid(soup.positions, tolerance);
+    for (std::uint32_t v = 0; v < soup.positions.size(); ++v) {
+        if (!which[v]) continue;
+        const std::uint32_t close = grid.nearest(v, [](std::uint32_t) { return true; });
+        if (close == none)
+            grid.add(v);
+        else
+            taken[v] = close;
+    }
+    return taken;
+}
+
 }  // namespace transillum

@@ -82,9 +82,9 @@ private:
         told("merged faces wound both ways into one with two sides", counts[4]);
     }
 
-    std::vector<MeetingPair> find_pairs() {
+    std::vector<MeetingPair> find_pairs(std::size_t most = SIZE_MAX) {
         monitor_.progress({.phase = "intersections"});
-        return find_intersections(soup_, workers_);
+        return find_intersections(soup_, workers_, most);
     }
 
     /// Until triangles meet in whole vertices and edges only.
@@ -96,41 +96,75 @@ private:
             first_look_ = false;
         }
         if (pairs.empty()) return;
-        TriangleSoup best;
-        std::size_t least = pairs.size();
+        const State before{soup_, report_};
+        std::vector<MeetingPair> left = cut(pairs);
+        if (left.size() > pairs.size()) {
+            // Edges too short for their coordinates run through each other, as around the poles
+            // of spheres: cutting them all only makes more of them.
+            restore(before);
+            collapse_short_edges(pairs);
+            pairs = find_pairs();
+            left = cut(pairs);
+        }
+        State best{soup_, report_, left.size()};
         double spacing = coarse_spacing();
-        for (int round = 0; round < options_.rounds && !pairs.empty(); ++round) {
+        std::size_t last = pairs.size();
+        for (int round = 1; round < options_.rounds && !left.empty(); ++round) {
             if (monitor_.stop_requested()) break;
-            cut(pairs);
-            std::vector<MeetingPair> next = find_pairs();
-            if (getenv("DBG"))
-                fprintf(stderr, "round %d: %zu -> %zu, %zu triangles, spacing %g\n", round,
-                        pairs.size(), next.size(), soup_.triangles.size(), spacing);
-            const bool helped = 2 * next.size() <= pairs.size();
-            if (!next.empty() && (round == 0 || next.size() < least)) {
-                best = soup_;
-                least = next.size();
-            }
-            if (!helped) {
+            if (2 * left.size() > last) {
                 // Rounding makes as many as cutting mends: their vertices are too close.
-                const double move = coarsen(soup_, next, spacing);
-                report_.largest_move = std::max(report_.largest_move, move);
-                told("moved vertices apart or together", next.size());
+                moved(coarsen(soup_, left, spacing));
+                told("places with vertices moved apart or together", 1);
                 spacing *= 2.0;
                 drop_faulty_faces();
-                next = find_pairs();
+                left = find_pairs();
             }
-            pairs = std::move(next);
+            last = left.size();
+            left = cut(left);
+            if (left.size() < best.pairs) best = {soup_, report_, left.size()};
         }
-        if (pairs.size() > least) {
-            soup_ = std::move(best);
-            report_.pairs_left = least;
-        } else {
-            report_.pairs_left = pairs.size();
-        }
+        if (best.pairs > 0) restore(best);
+        report_.pairs_left = best.pairs;
     }
 
-    void cut(const std::vector<MeetingPair>& pairs) {
+    /// A repair so far, to come back to.
+    struct State {
+        TriangleSoup soup;
+        RepairReport report;
+        std::size_t pairs = 0;  ///< that meet
+    };
+    void restore(const State& state) {
+        soup_ = state.soup;
+        report_ = state.report;
+    }
+
+    void collapse_short_edges(const std::vector<MeetingPair>& pairs) {
+        std::vector<bool> which(soup_.positions.size(), false);
+        for (const MeetingPair& p : pairs)
+            for (const std::uint32_t t : {p.a, p.b})
+                for (const std::uint32_t v : soup_.triangles[t].vertices) which[v] = true;
+        const double tolerance = options_.tolerance * diagonal_;
+        told("collapsed edges shorter than the tolerance, of faces that meet",
+             join(find_close_vertices(soup_, which, tolerance)));
+        drop_faulty_faces();
+    }
+
+    void moved(double distance) { report_.largest_move = std::max(report_.largest_move, distance); }
+
+    /// Puts others in the place of vertices. \returns how many
+    std::uint64_t join(const std::vector<std::uint32_t>& target) {
+        std::uint64_t count = 0;
+        for (std::uint32_t v = 0; v < target.size(); ++v) {
+            if (target[v] == v) continue;
+            ++count;
+            moved(glm::length(soup_.positions[v] - soup_.positions[target[v]]));
+        }
+        if (count > 0) replace_vertices(soup_, target);
+        return count;
+    }
+
+    /// \returns what meets after rounding
+    std::vector<MeetingPair> cut(const std::vector<MeetingPair>& pairs) {
         const Resolution done = resolve_intersections(soup_, pairs, rounding_, workers_, monitor_);
         ++report_.rounds;
         report_.faces_cut += done.faces_cut;
@@ -138,6 +172,7 @@ private:
         report_.vertices_made += done.vertices_made;
         told("cut faces where they meet", done.faces_cut);
         drop_faulty_faces();
+        return find_pairs(8 * pairs.size() + 1000);
     }
 
     [[nodiscard]] double coarse_spacing() const {
@@ -153,13 +188,11 @@ private:
 
     /// Not at the price of intersections that can't be resolved. \returns whether there were any
     bool try_to_close_cracks() {
-        const TriangleSoup before = soup_;
-        const RepairReport report_before = report_;
+        const State before{soup_, report_};
         if (!close_cracks()) return false;
         meet_in_edges();
         if (report_.pairs_left == 0) return true;
-        soup_ = before;
-        report_ = report_before;
+        restore(before);
         report_.left.push_back(
             "near vertices and T-junctions: joining them makes intersections that rounding brings "
             "back");
@@ -169,19 +202,9 @@ private:
     /// Joins near vertices, and edges to vertices that lie on them.
     bool close_cracks() {
         const double tolerance = options_.tolerance * diagonal_;
-        const std::vector<std::uint32_t> target = find_near_vertices(soup_, tolerance);
-        std::uint64_t moved = 0;
-        for (std::uint32_t v = 0; v < target.size(); ++v) {
-            if (target[v] == v) continue;
-            ++moved;
-            report_.largest_move = std::max(
-                report_.largest_move, glm::length(soup_.positions[v] - soup_.positions[target[v]]));
-        }
-        if (moved > 0) {
-            replace_vertices(soup_, target);
-            told("joined near vertices", moved);
-            drop_faulty_faces();
-        }
+        const std::uint64_t near = join(find_near_vertices(soup_, tolerance));
+        told("joined near vertices", near);
+        if (near > 0) drop_faulty_faces();
         std::uint64_t joined = 0;
         for (int edge = 0; edge < 3; ++edge) {
             const std::vector<TJunction> junctions = find_t_junctions(soup_, tolerance);
@@ -190,8 +213,8 @@ private:
             drop_faulty_faces();
         }
         told("joined edges to vertices on them", joined);
-        if (joined > 0) report_.largest_move = std::max(report_.largest_move, tolerance);
-        return moved + joined > 0;
+        if (joined > 0) moved(tolerance);
+        return near + joined > 0;
     }
 
     void orient() {
