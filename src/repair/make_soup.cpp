@@ -1,27 +1,19 @@
 #include <transillum/base/error.h>
-#include <transillum/base/sampling.h>
 #include <transillum/repair/triangle_soup.h>
 
+#include "repair/position_hash.h"
 #include "repair/predicates.h"
 #include "repair/triangulate.h"
 #include "repair/used_positions.h"
 
 #include <glm/geometric.hpp>
 
-#include <bit>
 #include <cmath>
 #include <unordered_map>
 
 namespace transillum {
 
 namespace {
-
-struct PositionHash {
-    std::size_t operator()(const glm::dvec3& p) const {
-        const auto bits = [](double x) { return hash_bits(std::bit_cast<std::uint64_t>(x)); };
-        return hash_bits(bits(p.x) ^ (bits(p.y) << 1) ^ (bits(p.z) << 2));
-    }
-};
 
 /// Merges; returns the new index of every old position.
 std::vector<std::uint32_t> weld(const Scene& scene, TriangleSoup& soup, SoupCounts& counts) {

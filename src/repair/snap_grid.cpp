@@ -41,6 +41,18 @@ glm::dvec3 snap(const glm::dvec3& p, const SnapGrid& grid) {
     return {round(p.x), round(p.y), round(p.z)};
 }
 
+glm::dvec3 VertexRounding::operator()(const glm::dvec3& p) const {
+    switch (rounding) {
+        case Rounding::floats:
+            return to_floats(p);
+        case Rounding::dyadic:
+            return snap(p, grid);
+        case Rounding::doubles:
+            break;
+    }
+    return p;
+}
+
 SnapGrid snap_scene(Scene& scene, Rounding rounding) {
     SnapGrid grid = dyadic_grid(scene);
     if (rounding == Rounding::doubles) return grid;
@@ -48,7 +60,7 @@ SnapGrid snap_scene(Scene& scene, Rounding rounding) {
     for (std::size_t i = 0; i < scene.positions.size(); ++i) {
         if (!used[i]) continue;
         glm::dvec3& p = scene.positions[i];
-        const glm::dvec3 rounded = rounding == Rounding::floats ? to_floats(p) : snap(p, grid);
+        const glm::dvec3 rounded = VertexRounding{rounding, grid}(p);
         grid.largest_move = std::max(grid.largest_move, glm::length(rounded - p));
         p = rounded;
     }

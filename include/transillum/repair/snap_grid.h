@@ -26,6 +26,14 @@ struct SnapGrid {
 /// To the nearest point of the grid; halves go to even.
 [[nodiscard]] glm::dvec3 snap(const glm::dvec3& p, const SnapGrid& grid);
 
+/// Rounds positions.
+struct VertexRounding {
+    Rounding rounding = Rounding::doubles;
+    SnapGrid grid;  ///< of `dyadic`
+
+    [[nodiscard]] glm::dvec3 operator()(const glm::dvec3& p) const;
+};
+
 /// Rounds every position that a polygon uses; says how far the furthest was moved.
 SnapGrid snap_scene(Scene& scene, Rounding rounding);
 
