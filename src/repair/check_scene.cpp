@@ -102,7 +102,11 @@ void check_cracks(const TriangleSoup& soup, double tolerance, DefectSites& sites
             for (const std::uint32_t corner : corners[vertex]) triangles.push_back(corner / 3);
         sites.add_vertex(Defect::near_vertex, v, triangles);
     }
-    for (const TJunction& t : find_t_junctions(soup, tolerance)) {
+    std::vector<TJunction> junctions = find_t_junctions(soup, tolerance);
+    std::ranges::stable_sort(junctions, {}, &TJunction::vertex);
+    const auto rest = std::ranges::unique(junctions, {}, &TJunction::vertex);
+    junctions.erase(rest.begin(), rest.end());
+    for (const TJunction& t : junctions) {
         std::vector<std::uint32_t> triangles{t.triangle};
         for (const std::uint32_t corner : corners[t.vertex]) triangles.push_back(corner / 3);
         sites.add_vertex(Defect::t_junction, t.vertex, triangles);
