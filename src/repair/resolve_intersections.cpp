@@ -2,9 +2,8 @@
 
 #include "repair/arrange_plane.h"
 #include "repair/exact_points.h"
+#include "repair/part_uvs.h"
 #include "repair/triangle_meeting.h"
-
-#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <numeric>
@@ -95,6 +94,19 @@ bool has_corner(const Corners& corners, std::uint32_t number) {
     return std::ranges::find(corners, number) != corners.end();
 }
 
+/// Walls of two materials have two triangles on the same vertices, which have to be cut alike.
+void join_alike(const TriangleSoup& soup, const std::vector<char>& is_cut, Clusters& clusters) {
+    std::vector<std::pair<Corners, std::uint32_t>> cut;
+    for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) {
+        if (!is_cut[t]) continue;
+        cut.emplace_back(soup.triangles[t].vertices, t);
+        std::ranges::sort(cut.back().first);
+    }
+    std::ranges::sort(cut);
+    for (std::size_t i = 1; i < cut.size(); ++i)
+        if (cut[i].first == cut[i - 1].first) clusters.join(cut[i].second, cut[i - 1].second);
+}
+
 /// What has to be arranged: for every triangle that is cut, alone or with those it overlaps.
 std::vector<PlaneInput> gather_planes(const TriangleSoup& soup,
                                       const std::vector<MeetingPair>& pairs,
@@ -132,17 +144,18 @@ std::vector<PlaneInput> gather_planes(const TriangleSoup& soup,
                                         std::max(numbers[i - 1], numbers[i]));
         }
     }
-    std::vector<std::uint32_t> plane_of(n);
+    join_alike(soup, is_cut, clusters);
+    std::vector<std::uint32_t> plane_of(n, MeetingPoint::none);
     std::vector<PlaneInput> planes;
     for (std::uint32_t t = 0; t < n; ++t) {
         if (!is_cut[t]) continue;
-        const std::uint32_t first = clusters.find(t);
-        if (first == t) {
-            plane_of[t] = static_cast<std::uint32_t>(planes.size());
+        std::uint32_t& plane = plane_of[clusters.find(t)];
+        if (plane == MeetingPoint::none) {
+            plane = static_cast<std::uint32_t>(planes.size());
             planes.emplace_back();
         }
-        plane_of[t] = plane_of[first];
-        planes[plane_of[t]].members.push_back(t);
+        plane_of[t] = plane;
+        planes[plane].members.push_back(t);
     }
     for (const auto& [t, p] : point_of) planes[plane_of[t]].points.push_back(p);
     for (const auto& [t, p, q] : segment_of) planes[plane_of[t]].segments.push_back({p, q});
@@ -174,33 +187,8 @@ std::vector<std::uint32_t> round_points(const ExactPoints& points, const VertexR
     return vertex_of;
 }
 
-/// Barycentric coordinates of a point in the plane of a triangle, as seen along its normal.
-glm::dvec3 barycentric(const std::array<glm::dvec3, 3>& t, const glm::dvec3& p) {
-    const glm::dvec3 normal = glm::cross(t[1] - t[0], t[2] - t[0]);
-    const double area = glm::dot(normal, normal);
-    const double b1 = glm::dot(glm::cross(p - t[0], t[2] - t[0]), normal) / area;
-    const double b2 = glm::dot(glm::cross(t[1] - t[0], p - t[0]), normal) / area;
-    return {1.0 - b1 - b2, b1, b2};
-}
-
-std::array<glm::vec2, 3> uvs_of_part(const TriangleSoup& soup, std::uint32_t whole,
-                                     const Corners& part) {
-    const Corners& corners = soup.triangles[whole].vertices;
-    std::array<glm::dvec3, 3> t;
-    for (int i = 0; i < 3; ++i) t[i] = soup.positions[corners[i]];
-    std::array<glm::vec2, 3> uvs;
-    for (int i = 0; i < 3; ++i) {
-        const auto same = std::ranges::find(corners, part[i]);
-        if (same != corners.end()) {
-            uvs[i] = soup.uvs[whole][static_cast<std::size_t>(same - corners.begin())];
-            continue;
-        }
-        const glm::dvec3 b = barycentric(t, soup.positions[part[i]]);
-        glm::dvec2 uv(0.0);
-        for (int k = 0; k < 3; ++k) uv += b[k] * glm::dvec2(soup.uvs[whole][k]);
-        uvs[i] = uv;
-    }
-    return uvs;
+bool is_whole(const Corners& triangle, const Corners& part) {
+    return std::ranges::all_of(part, [&](std::uint32_t v) { return has_corner(triangle, v); });
 }
 
 /// Puts parts in the place of what they are parts of.
@@ -214,12 +202,21 @@ void replace(TriangleSoup& soup, const std::vector<PlanePart>& parts, Resolution
             if (!soup.uvs.empty()) uvs.push_back(soup.uvs[t]);
             continue;
         }
+        const auto after =
+            std::find_if(part, parts.end(), [&](const PlanePart& p) { return p.member != t; });
+        if (after - part == 1 && is_whole(soup.triangles[t].vertices, part->corners)) {
+            triangles.push_back(soup.triangles[t]);
+            if (!soup.uvs.empty()) uvs.push_back(soup.uvs[t]);
+            part = after;
+            continue;
+        }
         ++resolution.faces_cut;
-        for (; part != parts.end() && part->member == t; ++part) {
+        for (; part != after; ++part) {
             const Corners& c = part->corners;
             if (c[0] == c[1] || c[1] == c[2] || c[2] == c[0]) continue;  // by rounding
             ++resolution.faces_made;
-            triangles.push_back({c, soup.triangles[t].polygon});
+            triangles.push_back(soup.triangles[t]);
+            triangles.back().vertices = c;
             if (!soup.uvs.empty()) uvs.push_back(uvs_of_part(soup, t, c));
         }
     }

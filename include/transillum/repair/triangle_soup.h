@@ -13,6 +13,7 @@ namespace transillum {
 struct SoupTriangle {
     std::array<std::uint32_t, 3> vertices{};  ///< indices into TriangleSoup::positions
     std::uint32_t polygon = 0;                ///< of Scene::polygons, which this is a part of
+    bool both_sides = false;  ///< stands for one wound the other way too, of the same material
 
     bool operator==(const SoupTriangle&) const = default;
 };
