@@ -4,7 +4,10 @@
 #include "repair/find_components.h"
 #include "repair/find_defects.h"
 #include "repair/find_intersections.h"
+#include "repair/find_leaks.h"
 #include "repair/find_thin_walls.h"
+#include "repair/leak_sources.h"
+#include "repair/repair_soup.h"
 
 #include <transillum/base/error.h>
 
@@ -153,6 +156,19 @@ void check_thin_walls(const TriangleSoup& soup, const std::vector<MeetingPair>& 
     }
 }
 
+/// On a copy whose faces meet in whole edges; no gap is closed in it, however narrow.
+void check_leaks(const Scene& scene, TriangleSoup soup, double leak_width, const Workers& workers,
+                 Monitor& monitor, CheckReport& report) {
+    RepairOptions exactly;
+    exactly.tolerance = 0.0;
+    RepairReport unused;
+    repair_soup(soup, scene, exactly, {}, workers, monitor, unused);
+    report.leaks = find_leaks(soup, scene, leak_width * report.diagonal, workers, monitor);
+    report.leaks_searched = true;
+    report.counts[static_cast<std::size_t>(Defect::leak)] =
+        static_cast<std::uint64_t>(std::ranges::count(report.leaks, false, &Leak::is_opening));
+}
+
 CheckReport start_report(const Scene& scene, const TriangleSoup& soup,
                          const CheckOptions& options) {
     CheckReport report;
@@ -198,6 +214,10 @@ CheckReport check_scene(const Scene& scene, const CheckOptions& options, const W
     const std::vector<MeetingPair> meetings = check_intersections(scene, sound, workers, sites);
     step("check: thin walls");
     check_thin_walls(sound, meetings, workers, report, sites);
+    if (options.leaks && has_leak_sources(scene)) {
+        step("check: leaks");
+        check_leaks(scene, soup, options.leak_width, workers, monitor, report);
+    }
     std::ranges::stable_sort(report.sites, {}, &DefectSite::defect);
     return report;
 }
