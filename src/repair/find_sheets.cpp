@@ -101,10 +101,10 @@ Sheets find_sheets(const TriangleSoup& soup, const EdgeTable& edges) {
         if (sheets.turned[t]) sheets.mixed[s] = true;
         // Seen from a vertex of the sheet, so that places far from the origin cost no digits.
         const glm::dvec3& tip = soup.positions[soup.triangles[first[s]].vertices[0]];
-        sheets.volume[s] += (sheets.turned[t] ? -1.0 : 1.0) * cone_of(soup, t, tip) / 6.0;
+        sheets.volume[s] += (sheets.turned[t] ? -1.0 : 1.0) * cone_of(soup, t, tip);
     }
     for (std::size_t s = 0; s < sheets.size(); ++s)
-        if (!sheets.closed[s] || !sheets.orientable[s]) sheets.volume[s] = 0.0;
+        sheets.volume[s] = sheets.closed[s] && sheets.orientable[s] ? sheets.volume[s] / 6.0 : 0.0;
     return sheets;
 }
 
