@@ -258,9 +258,9 @@ INSTANTIATE_TEST_SUITE_P(All, SaveGltf, testing::Values("gltf", "glb"));
 
 TEST_P(SaveGltf, KeepsTrianglesAndMaterials) {
     Scene scene = two_objects(gltf_materials());
-    for (glm::dvec3& p : scene.positions)
-        for (int axis = 0; axis < 3; ++axis)
-            p[axis] = static_cast<double>(static_cast<float>(p[axis]));
+    // Not in place: g++ 12 leaves the last ones of such a loop unrounded at -O3.
+    std::vector<glm::vec3> rounded(scene.positions.begin(), scene.positions.end());
+    scene.positions.assign(rounded.begin(), rounded.end());
     const Scene read = save_and_load(scene, name_);
     EXPECT_TRUE(monitor_.warnings.empty()) << monitor_.warnings[0];
     EXPECT_TRUE(monitor_.notes.empty()) << monitor_.notes[0];
