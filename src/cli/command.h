@@ -29,5 +29,6 @@ void add_render(CLI::App& program, const Common& common, int& exit_code);
 void add_info(CLI::App& program, const Common& common, int& exit_code);
 void add_compare(CLI::App& program, const Common& common, int& exit_code);
 void add_reference(CLI::App& program, const Common& common, int& exit_code);
+void add_subdivide(CLI::App& program, const Common& common, int& exit_code);
 
 }  // namespace transillum::cli
