@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <limits>
 
 namespace transillum {
@@ -167,6 +168,10 @@ Layout lay_out_solution(const Scene& scene, const BakeOptions& options, const Ba
     s.lighting = scene.lighting;
     record_settings(options, s);
     s.surface = build_surface(scene, options.surface, monitor);
+    layout.decisions.push_back(
+        {fmt::format("vertices snapped to a grid of {:.3g}, by up to {:.3g}",
+                     std::ldexp(1.0, s.surface.grid.exponent), s.surface.grid.largest_move),
+         "the corners of all patches are then exact"});
     require_light(scene, s.surface);
     s.patches = subdivide_uniformly(s.surface, options.subdivision);
     s.scene_hash = hash_scene(s.surface, s.lighting);

@@ -41,6 +41,37 @@ TEST(SnapScene, RoundsEveryPositionToFloats) {
     }
 }
 
+TEST(SnapScene, RefusesExtentsThatLightCannotBeWorkedOutAt) {
+    for (const double extent : {1e300, 1.1e15, 0.9e-15, 1e-310, 5e-324}) {
+        Scene scene = scattered(3);
+        for (glm::dvec3& p : scene.positions) p = {0.0, 0.0, -extent};
+        scene.path = "huge";
+        try {
+            snap_scene(scene, Rounding::dyadic);
+            ADD_FAILURE() << extent;
+        } catch (const InputError& error) {
+            const std::string message = error.what();
+            EXPECT_TRUE(message.starts_with("huge: the largest coordinate is ")) << message;
+            EXPECT_NE(message.find("accepted: 1e-15 to 1e+15"), std::string::npos) << message;
+        }
+        EXPECT_NO_THROW(snap_scene(scene, Rounding::doubles));
+    }
+    for (const double extent : {1e15, 1e-15, 0.0}) {
+        Scene scene = scattered(3);
+        for (glm::dvec3& p : scene.positions) p = {extent, 0.0, 0.0};
+        EXPECT_NO_THROW(snap_scene(scene, Rounding::dyadic));
+    }
+}
+
+/// Beside large coordinates, they are 0.
+TEST(SnapScene, TakesDenormalNumbers) {
+    Scene scene = scattered(3);
+    scene.positions[0] = {5e-324, -1e-310, 1.0};
+    snap_scene(scene, Rounding::dyadic);
+    EXPECT_EQ(scene.positions[0], glm::dvec3(0.0, 0.0, 1.0));
+    EXPECT_FALSE(std::signbit(scene.positions[0].y));
+}
+
 }  // namespace
 
 }  // namespace transillum
