@@ -1,5 +1,6 @@
 #include "cli/command.h"
 #include "cli/console.h"
+#include "cli/repair_options.h"
 #include "cli/scene_options.h"
 #include "cli/spectral_options.h"
 
@@ -85,6 +86,8 @@ void add_options(CLI::App& command, BakeArguments& a) {
         ->check(within(0.0, 180.0))
         ->capture_default_str()
         ->group(patches);
+
+    add_repair_options(command, "--repair", a.bake.repair);
 
     const char* const refinement = "Refinement";
     auto& refine = a.bake.refinement;

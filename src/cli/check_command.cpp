@@ -1,5 +1,6 @@
 #include "cli/command.h"
 #include "cli/console.h"
+#include "cli/defect_json.h"
 #include "cli/scene_options.h"
 
 #include <transillum/repair/check_scene.h>
@@ -25,13 +26,6 @@ struct CheckArguments {
     int threads = 0;
     bool no_leaks = false, json = false;
 };
-
-Json counts_of(const DefectCounts& counts) {
-    Json json = Json::object();
-    for (std::size_t d = 0; d < defect_count; ++d)
-        json[std::string(name_of(static_cast<Defect>(d)))] = counts[d];
-    return json;
-}
 
 Json harmful_names() {
     Json names = Json::array();

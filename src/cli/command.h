@@ -27,8 +27,10 @@ void add_bake(CLI::App& program, const Common& common, int& exit_code);
 void add_walk(CLI::App& program, const Common& common, int& exit_code);
 void add_render(CLI::App& program, const Common& common, int& exit_code);
 void add_info(CLI::App& program, const Common& common, int& exit_code);
+void add_repair(CLI::App& program, const Common& common, int& exit_code);
 void add_check(CLI::App& program, const Common& common, int& exit_code);
 void add_compare(CLI::App& program, const Common& common, int& exit_code);
 void add_reference(CLI::App& program, const Common& common, int& exit_code);
+void add_subdivide(CLI::App& program, const Common& common, int& exit_code);
 
 }  // namespace transillum::cli

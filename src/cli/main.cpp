@@ -53,9 +53,11 @@ int parse_and_run(int argc, char** argv) {
     add_render(program, common, exit_code);
     add_walk(program, common, exit_code);
     add_info(program, common, exit_code);
+    add_repair(program, common, exit_code);
     add_check(program, common, exit_code);
     add_compare(program, common, exit_code);
     add_reference(program, common, exit_code);
+    add_subdivide(program, common, exit_code);
     try {
         program.parse(argc, argv);
     } catch (const CLI::Success& e) {

@@ -11,7 +11,7 @@ RepairedScene repair_scene(const Scene& scene, const RepairOptions& options, con
     RepairReport& report = repaired.report;
     if (options.level == RepairLevel::off) return repaired;
     const SnapGrid grid = snap_scene(repaired.scene, options.rounding);
-    report.largest_move = grid.largest_move;
+    report.snapped_by = report.largest_move = grid.largest_move;
     SoupCounts counts;
     const TriangleSoup made = make_soup(repaired.scene, &counts);
     if (counts.welded > 0) report.steps.push_back({"welded vertices at one place", counts.welded});
@@ -19,7 +19,8 @@ RepairedScene repair_scene(const Scene& scene, const RepairOptions& options, con
         report.steps.push_back({"dropped polygons without area", counts.without_area});
     TriangleSoup soup = made;
     repair_soup(soup, repaired.scene, options, grid, workers, monitor, report);
-    if (report.changed()) repaired.scene = restore_polygons(repaired.scene, made, soup);
+    if (report.changed() || report.welded > 0)
+        repaired.scene = restore_polygons(repaired.scene, made, soup);
     return repaired;
 }
 

@@ -1,3 +1,4 @@
+#include <transillum/base/error.h>
 #include <transillum/repair/snap_grid.h>
 
 #include "repair/used_positions.h"
@@ -6,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace transillum {
 
@@ -19,15 +21,28 @@ glm::dvec3 to_floats(const glm::dvec3& p) {
             static_cast<double>(static_cast<float>(p.z))};
 }
 
-}  // namespace
-
-SnapGrid dyadic_grid(const Scene& scene) {
-    const std::vector<bool> used = used_positions(scene);
+double largest_coordinate(const Scene& scene, const std::vector<bool>& used) {
     double largest = 0.0;
     for (std::size_t i = 0; i < scene.positions.size(); ++i) {
         const glm::dvec3 p = glm::abs(scene.positions[i]);
         if (used[i]) largest = std::max({largest, p.x, p.y, p.z});
     }
+    return largest;
+}
+
+void check_extent(const Scene& scene, const std::vector<bool>& used) {
+    const double largest = largest_coordinate(scene, used);
+    if (largest == 0.0 || (largest >= least_extent && largest <= most_extent)) return;
+    std::ostringstream text;
+    text << "the largest coordinate is " << largest << "; accepted: " << least_extent << " to "
+         << most_extent << ", so in another unit";
+    throw InputError(scene.path, text.str());
+}
+
+}  // namespace
+
+SnapGrid dyadic_grid(const Scene& scene) {
+    const double largest = largest_coordinate(scene, used_positions(scene));
     if (largest == 0.0) return {-grid_bits, 0.0};
     int exponent = 0;
     std::frexp(largest, &exponent);  // largest < 2^exponent
@@ -57,6 +72,7 @@ SnapGrid snap_scene(Scene& scene, Rounding rounding) {
     SnapGrid grid = dyadic_grid(scene);
     if (rounding == Rounding::doubles) return grid;
     const std::vector<bool> used = used_positions(scene);
+    if (rounding == Rounding::dyadic) check_extent(scene, used);
     for (std::size_t i = 0; i < scene.positions.size(); ++i) {
         if (!used[i]) continue;
         glm::dvec3& p = scene.positions[i];

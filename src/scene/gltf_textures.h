@@ -3,6 +3,7 @@
 #pragma once
 
 #include "scene/gltf_document.h"
+#include "scene/gltf_reflection.h"
 
 #include <transillum/base/monitor.h>
 #include <transillum/scene/scene.h>
@@ -23,18 +24,6 @@ struct TextureFrame {
 
     [[nodiscard]] glm::vec2 apply(const glm::vec2& uv) const { return turn * uv + offset; }
     bool operator==(const TextureFrame&) const = default;
-};
-
-/// What a point of a glTF material reflects (metallic-roughness, glTF 2.0 appendix B).
-/// \param dielectric reflectance at normal incidence where it is no metal
-struct GltfReflection {
-    Spectrum dielectric{0.04f};
-    [[nodiscard]] static Spectrum diffuse(const Spectrum& base, float metallic) {
-        return base * (1.0f - metallic);
-    }
-    [[nodiscard]] Spectrum specular(const Spectrum& base, float metallic) const {
-        return glm::mix(dielectric, base, metallic);
-    }
 };
 
 class GltfTextures {

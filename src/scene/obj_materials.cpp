@@ -57,15 +57,16 @@ std::uint32_t ObjMaterials::index_of(const std::string& name, Scene& scene) {
     return static_cast<std::uint32_t>(defined - scene.materials.begin());
 }
 
-/// As the maps' options say; v runs upwards in their files, downwards in a Texture.
+/// As the maps' options say, which are for v that runs upwards; in a scene it runs downwards.
 void ObjMaterials::place_uvs(Scene& scene) const {
     if (scene.uvs.empty()) return;
     for (const Polygon& polygon : scene.polygons) {
         const MtlMap* map =
             polygon.material < library_.size() ? main_map(library_[polygon.material]) : nullptr;
+        if (!map || (map->scale == glm::vec2(1.0f) && map->offset == glm::vec2(0.0f))) continue;
         for (std::uint32_t c = 0; c < polygon.corner_count; ++c) {
             glm::vec2& uv = scene.uvs[polygon.first_corner + c];
-            if (map) uv = map->scale * uv + map->offset;
+            uv = map->scale * glm::vec2(uv.x, 1.0f - uv.y) + map->offset;
             uv.y = 1.0f - uv.y;
         }
     }

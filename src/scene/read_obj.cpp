@@ -69,7 +69,7 @@ private:
     ObjMaterials materials_;
     Monitor& monitor_;
     Scene scene_;
-    std::vector<glm::vec2> uvs_;
+    std::vector<glm::dvec2> uvs_;
     std::size_t normal_count_ = 0;
     std::vector<Corner> corners_;
     std::vector<std::size_t> line_of_polygon_;
@@ -196,9 +196,12 @@ void ObjReader::take_corners() {
     for (std::size_t i = 0; i < corners_.size(); ++i)
         scene_.corners[i] = static_cast<std::uint32_t>(corners_[i].position);
     if (std::ranges::all_of(corners_, [](const Corner& c) { return c.uv == absent; })) return;
-    for (const Corner& c : corners_)
-        scene_.uvs.push_back(c.uv == absent ? glm::vec2(0.0f)
-                                            : uvs_[static_cast<std::size_t>(c.uv)]);
+    // v runs upwards in the file; small ones would be rounded if they were turned as floats.
+    for (const Corner& c : corners_) {
+        const glm::dvec2 uv =
+            c.uv == absent ? glm::dvec2(0.0) : uvs_[static_cast<std::size_t>(c.uv)];
+        scene_.uvs.emplace_back(uv.x, 1.0 - uv.y);
+    }
 }
 
 std::vector<std::uint8_t> ObjReader::polygons_with_uvs() const {

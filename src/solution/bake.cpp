@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <limits>
 
 namespace transillum {
@@ -34,7 +35,10 @@ void record_settings(const BakeOptions& o, Solution& s) {
     const char* const shots[] = {"auto", "off", "hemicube", "vectors"};
     const char* const averagings[] = {"balanced", "paper", "none"};
     const char* const residuals[] = {"auto", "off", "subpatch", "wavefront"};
+    const char* const repairs[] = {"off", "safe", "full"};
     s.settings = {
+        {"repair", repairs[static_cast<int>(o.repair.level)]},
+        {"repair-tolerance", fmt::format("{}", o.repair.tolerance)},
         {"patch-size", fmt::format("{}", o.subdivision.patch_size)},
         {"leaves", fmt::format("{}", o.subdivision.leaf_target)},
         {"max-level", fmt::format("{}", o.subdivision.max_level)},
@@ -157,6 +161,34 @@ void require_room_for_quarters(const BakeOptions& o) {
 
 }  // namespace
 
+namespace {
+
+/// Repairs the scene, on the grid that patches need.
+RepairedScene make_sound(const Scene& scene, RepairOptions options, const Workers& workers,
+                         Monitor& monitor) {
+    options.rounding = Rounding::dyadic;
+    RepairedScene repaired = repair_scene(scene, options, workers, monitor);
+    for (const std::string& left : repaired.report.left)
+        monitor.warn(fmt::format("{}: not repaired: {}", scene.path, left));
+    return repaired;
+}
+
+/// What was done to the meshes, or why nothing was.
+std::vector<Decision> decisions_about(const RepairReport& report, RepairLevel level,
+                                      const SnapGrid& grid) {
+    std::string done;
+    for (const RepairStep& step : report.steps)
+        done += fmt::format("{}{} {}", done.empty() ? "" : ", ", step.what, step.count);
+    return {level == RepairLevel::off ? Decision{"no repair", "--repair off"}
+            : done.empty()            ? Decision{"no repair", "the meshes have no defect"}
+                                      : Decision{"meshes repaired", done},
+            {fmt::format("vertices snapped to a grid of {:.3g}, by up to {:.3g}",
+                         std::ldexp(1.0, grid.exponent), grid.largest_move),
+             "the corners of all patches are then exact"}};
+}
+
+}  // namespace
+
 Layout lay_out_solution(const Scene& scene, const BakeOptions& options, const Baker& baker,
                         StopWatch& watch, Monitor& monitor) {
     require_room_for_quarters(options);
@@ -166,7 +198,12 @@ Layout lay_out_solution(const Scene& scene, const BakeOptions& options, const Ba
     s.cameras = scene.cameras;
     s.lighting = scene.lighting;
     record_settings(options, s);
-    s.surface = build_surface(scene, options.surface, monitor);
+    const RepairedScene sound = make_sound(scene, options.repair, baker.workers(), monitor);
+    watch.lap("repair");
+    s.surface = build_surface(sound.scene, options.surface, monitor);
+    SnapGrid& grid = s.surface.grid;
+    grid.largest_move = std::max(grid.largest_move, sound.report.snapped_by);
+    layout.decisions = decisions_about(sound.report, options.repair.level, grid);
     require_light(scene, s.surface);
     s.patches = subdivide_uniformly(s.surface, options.subdivision);
     s.scene_hash = hash_scene(s.surface, s.lighting);

@@ -36,6 +36,8 @@ public:
         Solution& solution, std::uint64_t iterations,
         std::shared_ptr<const IterationSums> start = nullptr, bool keep_sums = false) const;
 
+    [[nodiscard]] const Workers& workers() const { return workers_; }
+
     std::uint64_t band_groups = 0;  ///< whose results are to be kept, for the estimate of memory
 
 private:

@@ -1,11 +1,11 @@
 #include "replace_files.h"
 
 #include <transillum/base/error.h>
+#include <transillum/base/staged_files.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <cstdlib>
 #include <fstream>
 #include <string_view>
 #include <system_error>
@@ -27,35 +27,6 @@ bool is_known(std::string_view name) {
 
 [[noreturn]] void fail(const fs::path& path, const std::string& what, int error) {
     throw IoError(path.string(), what + ": " + std::generic_category().message(error));
-}
-
-/// A fresh folder beside `path`, removed with all that is left in it.
-class TemporaryFolder {
-public:
-    explicit TemporaryFolder(const fs::path& path) {
-        const fs::path parent = path.has_parent_path() ? path.parent_path() : fs::path(".");
-        std::string pattern = (parent / ".transillum.XXXXXX").string();
-        if (mkdtemp(pattern.data()) == nullptr) fail(path, "cannot write into its folder", errno);
-        folder_ = pattern;
-    }
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-    ~TemporaryFolder() {
-        std::error_code ignored;
-        fs::remove_all(folder_, ignored);
-    }
-    [[nodiscard]] fs::path operator/(const char* name) const { return folder_ / name; }
-
-private:
-    fs::path folder_;
-};
-
-void write_bytes(const std::string& bytes, const fs::path& file, const fs::path& target) {
-    errno = 0;
-    std::ofstream out(file, std::ios::binary);
-    out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    out.close();
-    if (!out) fail(target, "cannot write", errno);
 }
 
 /// A folder of the user's own must never be swept away with a solution.

@@ -27,11 +27,13 @@ struct RepairOptions {
 
 /// What one pass did; passes that found nothing are not told.
 struct RepairStep {
-    std::string what;  ///< "welded vertices", ...
+    std::string what;  ///< "dropped duplicate faces", ...
     std::uint64_t count = 0;
 };
 
 struct RepairReport {
+    std::uint64_t welded = 0;  ///< vertices at the place of others: shared now, which is no defect
+    double snapped_by = 0.0;   ///< the furthest any vertex was moved by rounding the input
     std::vector<RepairStep> steps;
     std::uint64_t crossing_pairs = 0, coplanar_pairs = 0;  ///< of triangles, as found at first
     std::uint64_t faces_cut = 0, faces_made = 0, vertices_made = 0;

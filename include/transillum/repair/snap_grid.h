@@ -34,7 +34,13 @@ struct VertexRounding {
     [[nodiscard]] glm::dvec3 operator()(const glm::dvec3& p) const;
 };
 
+/// Absolute values that the largest coordinate may have where it is dyadic [scene units]: areas and
+/// their products then stay well within what floats hold, which light is worked out in.
+inline constexpr double least_extent = 1e-15, most_extent = 1e15;
+
 /// Rounds every position that a polygon uses; says how far the furthest was moved.
+/// \throws InputError on a coordinate that is no finite number; dyadic: where the largest is
+/// outside [least_extent, most_extent].
 SnapGrid snap_scene(Scene& scene, Rounding rounding);
 
 }  // namespace transillum

@@ -6,6 +6,7 @@
 #include <transillum/first_shot/light_samples.h>
 #include <transillum/geometry/patch_hierarchy.h>
 #include <transillum/geometry/surface_mesh.h>
+#include <transillum/repair/repair_scene.h>
 #include <transillum/scene/scene.h>
 #include <transillum/solution/save_solution.h>
 #include <transillum/solution/solution.h>
@@ -29,6 +30,7 @@ struct RefinementOptions {
 };
 
 struct BakeOptions {
+    RepairOptions repair;  ///< its rounding is set to that of patches, Rounding::dyadic
     SurfaceOptions surface;
     SubdivisionOptions subdivision;
     LightSampleOptions light;
