@@ -160,7 +160,7 @@ void check_thin_walls(const TriangleSoup& soup, const std::vector<MeetingPair>& 
 void check_leaks(const Scene& scene, TriangleSoup soup, double leak_width, const Workers& workers,
                  Monitor& monitor, CheckReport& report) {
     RepairOptions exactly;
-    exactly.tolerance = 0.0;
+    exactly.close_cracks = false;
     RepairReport unused;
     repair_soup(soup, scene, exactly, {}, workers, monitor, unused);
     report.leaks = find_leaks(soup, scene, leak_width * report.diagonal, workers, monitor);

@@ -41,7 +41,7 @@ public:
         if (options_.level == RepairLevel::full) {
             meet_in_edges();
             // What is cut may leave vertices close to others again.
-            for (int i = 0; i < 3 && report_.pairs_left == 0; ++i)
+            for (int i = 0; i < 3 && options_.close_cracks && report_.pairs_left == 0; ++i)
                 if (!try_to_close_cracks()) break;
         }
         orient();

@@ -15,10 +15,14 @@ namespace {
 
 constexpr int grid_bits = 40;
 
+/// GCC 12 leaves out pairs of conversions that it vectorizes, hence volatile.
+double to_float(double x) {
+    const volatile float rounded = static_cast<float>(x);
+    return static_cast<double>(rounded);
+}
+
 glm::dvec3 to_floats(const glm::dvec3& p) {
-    return {static_cast<double>(static_cast<float>(p.x)),
-            static_cast<double>(static_cast<float>(p.y)),
-            static_cast<double>(static_cast<float>(p.z))};
+    return {to_float(p.x), to_float(p.y), to_float(p.z)};
 }
 
 double largest_coordinate(const Scene& scene, const std::vector<bool>& used) {

@@ -33,7 +33,8 @@ struct Component {
 struct Leak {
     std::string from;                  ///< "luminaire 'lamp'", "camera 'front'"
     std::vector<glm::dvec3> path;      ///< from there to outside
-    double length = 0.0, width = 0.0;  ///< [scene units]; width: of the narrowest gap it passes
+    double length = 0.0, width = 0.0;  ///< [scene units]; width: of the narrowest gap it passes,
+                                       ///< infinite where there is nothing beside it
     bool is_opening = false;           ///< wider than a leak
 };
 
@@ -51,14 +52,20 @@ struct CheckReport {
     std::vector<ObjectCounts> objects;  ///< as Scene::objects
     std::vector<Component> components;
     std::vector<Leak> leaks;
-    bool leaks_searched = false;    ///< else there is nothing to start from, or no wish
-    double thinnest_wall = 0.0;     ///< [scene units]; 0 without thin walls
-    std::vector<DefectSite> sites;  ///< every one, in the order of Defect
+    bool leaks_searched = false;  ///< else there is nothing to start from, or no wish
+    double thinnest_wall = 0.0;   ///< [scene units]; 0 without thin walls
+    /// Every one, in the order of Defect, but for duplicate vertices and leaks.
+    std::vector<DefectSite> sites;
 
     [[nodiscard]] bool is_sound() const;  ///< nothing harmful
 };
 
-/// \throws InputError on a coordinate that is no finite number or when there is no polygon.
+/// Edges and non-manifold vertices are counted on all triangles that name three vertices, what else
+/// needs sound faces on those that find_faulty_faces keeps, one side of walls of two materials.
+/// Self and object intersections count pairs that pass through each other and pairs that only
+/// touch, as a vertex on a face: both let light leak or patches straddle. Leaks: see CheckOptions;
+/// where a scene is open anyway, its narrow gaps are not told. \throws InputError on a coordinate
+/// that is no finite number or when there is no polygon.
 [[nodiscard]] CheckReport check_scene(const Scene& scene, const CheckOptions& options,
                                       const Workers& workers, Monitor& monitor);
 

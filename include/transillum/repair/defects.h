@@ -43,7 +43,8 @@ inline constexpr std::size_t defect_count = 20;
 
 using DefectCounts = std::array<std::uint64_t, defect_count>;
 
-/// Where a defect is: one vertex, an edge of two, or a triangle.
+/// Where a defect is: one vertex, an edge of two, or a triangle; nowhere (0) for polygons that give
+/// no triangle.
 struct DefectSite {
     Defect defect{};
     std::uint8_t vertex_count = 1;

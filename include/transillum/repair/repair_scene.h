@@ -21,8 +21,9 @@ enum class RepairLevel {
 struct RepairOptions {
     RepairLevel level = RepairLevel::full;
     Rounding rounding = Rounding::doubles;
-    double tolerance = 4e-7;  ///< near vertices and T-junctions, over the scene's diagonal
-    int rounds = 12;          ///< most times that rounding may be tried
+    double tolerance = 4e-7;   ///< near vertices and T-junctions, over the scene's diagonal
+    bool close_cracks = true;  ///< full: join near vertices and T-junctions
+    int rounds = 12;           ///< most times that rounding may be tried
 };
 
 /// What one pass did; passes that found nothing are not told.

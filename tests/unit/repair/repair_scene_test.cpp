@@ -116,7 +116,7 @@ TEST(RepairScene, CountsOverlapsOnce) {
     const RepairedScene repaired = repair(b.scene);
     expect_sound(repaired.scene);
     EXPECT_EQ(area_of(repaired.scene), 4.0 + 4.0 - 1.0 + 1.0);
-    EXPECT_GE(repaired.report.coplanar_pairs, 2u);
+    EXPECT_GE(repaired.report.coplanar_pairs, 1u);
 }
 
 TEST(RepairScene, KeepsTheEmitterOfAnOverlap) {
@@ -158,9 +158,11 @@ TEST(RepairScene, LeavesSoundScenesAsTheyAre) {
         RepairOptions options;
         options.rounding = rounding;
         const RepairedScene repaired = repair(b.scene, options);
-        EXPECT_FALSE(repaired.report.changed());
+        for (const RepairStep& step : repaired.report.steps) ADD_FAILURE() << step.what;
         EXPECT_TRUE(repaired.report.left.empty());
-        if (rounding == Rounding::doubles) EXPECT_TRUE(same(repaired.scene, b.scene));
+        if (rounding == Rounding::doubles) {
+            EXPECT_TRUE(same(repaired.scene, b.scene));
+        }
     }
 }
 
