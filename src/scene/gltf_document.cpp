@@ -71,6 +71,28 @@ std::string decode_percent(std::string_view uri) {
     return text;
 }
 
+/// What handles JSON goes down into it by recursion.
+void check_nesting(const std::filesystem::path& path, std::string_view text) {
+    constexpr std::size_t deepest = 100;
+    std::size_t depth = 0;
+    bool in_string = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (in_string && c == '\\') {
+            ++i;
+        } else if (c == '"') {
+            in_string = !in_string;
+        } else if (!in_string && (c == '[' || c == '{')) {
+            if (++depth > deepest)
+                throw InputError(
+                    path.string() + ": byte " + std::to_string(i),
+                    "JSON nested more than " + std::to_string(deepest) + " deep; accepted: less");
+        } else if (!in_string && (c == ']' || c == '}') && depth > 0) {
+            --depth;
+        }
+    }
+}
+
 }  // namespace
 
 double GltfAccessor::value(std::size_t element, int component) const {
@@ -153,6 +175,7 @@ GltfDocument::GltfDocument(const std::filesystem::path& path) : path_(path) {
 }
 
 void GltfDocument::parse(std::string_view text) {
+    check_nesting(path_, text);
     try {
         root_ = Json::parse(text);
     } catch (const Json::exception& error) {
@@ -203,31 +226,32 @@ void GltfDocument::check_version() const {
 void GltfDocument::read_buffers() {
     for (std::size_t i = 0; i < count("buffers"); ++i)
         buffers_.push_back(read_buffer(root_.at("buffers")[i], i));
-    binary_chunk_.clear();
 }
 
-std::string GltfDocument::read_buffer(const Json& buffer, std::size_t number) const {
+std::string_view GltfDocument::read_buffer(const Json& buffer, std::size_t number) {
     const std::string place = place_of("buffers", number);
     const std::size_t length = size_value(*this, buffer, "byteLength", 0);
-    std::string bytes;
+    std::string_view bytes;
     if (!buffer.contains("uri")) {
         if (number != 0 || !has_binary_chunk_)
             fail(place, "no uri and no binary chunk; accepted: either");
         bytes = binary_chunk_;
     } else if (const auto uri = buffer.at("uri").get<std::string>(); uri.starts_with("data:")) {
-        bytes = decode_data_uri(path_.string() + ": " + place, uri);
+        bytes = decoded_.emplace_back(decode_data_uri(path_.string() + ": " + place, uri));
     } else {
         std::error_code ignored;
         const std::filesystem::path file = file_of(uri);
         if (!std::filesystem::is_regular_file(file, ignored))
             fail(place, "its file " + in_quotes(file.string()) + " is not there");
-        bytes = read_file(file);
+        const auto [found, is_new] =
+            files_.try_emplace(std::filesystem::weakly_canonical(file, ignored).string());
+        if (is_new) found->second = read_file(file);
+        bytes = found->second;
     }
     if (bytes.size() < length)
         fail(place, "says " + std::to_string(length) + " bytes, but there are " +
                         std::to_string(bytes.size()));
-    bytes.resize(length);
-    return bytes;
+    return bytes.substr(0, length);
 }
 
 std::filesystem::path GltfDocument::file_of(const std::string& uri) const {
@@ -255,14 +279,14 @@ const Json& GltfDocument::element(const char* array, const Json& index) const {
 
 std::string_view GltfDocument::buffer_view(const Json& index) const {
     const Json& view = element("bufferViews", index);
-    const std::string& buffer = buffers_[index_into("buffers", view.at("buffer"))];
+    const std::string_view buffer = buffers_[index_into("buffers", view.at("buffer"))];
     const std::size_t offset = size_value(*this, view, "byteOffset", 0);
     const std::size_t length = size_value(*this, view, "byteLength", 0);
     if (offset > buffer.size() || length > buffer.size() - offset)
         fail(place_of("bufferViews", index.get<std::size_t>()),
              std::to_string(length) + " bytes from " + std::to_string(offset) +
                  " on; its buffer has " + std::to_string(buffer.size()));
-    return std::string_view(buffer).substr(offset, length);
+    return buffer.substr(offset, length);
 }
 
 GltfAccessor GltfDocument::accessor(const Json& index, const char* type) const {

@@ -7,7 +7,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -32,6 +34,8 @@ struct GltfAccessor {
 class GltfDocument {
 public:
     explicit GltfDocument(const std::filesystem::path& path);
+    GltfDocument(const GltfDocument&) = delete;
+    GltfDocument& operator=(const GltfDocument&) = delete;
 
     [[nodiscard]] const Json& root() const { return root_; }
     /// The element of a top-level array that `index` names.
@@ -53,14 +57,16 @@ private:
     void read_glb(const std::string& bytes);
     void parse(std::string_view text);
     void read_buffers();
-    std::string read_buffer(const Json& buffer, std::size_t number) const;
+    std::string_view read_buffer(const Json& buffer, std::size_t number);
     void check_version() const;
 
     std::filesystem::path path_;
     Json root_;
     std::string binary_chunk_;
     bool has_binary_chunk_ = false;
-    std::vector<std::string> buffers_;
+    std::deque<std::string> decoded_;           ///< from data URIs
+    std::map<std::string, std::string> files_;  ///< each read once, however many buffers name it
+    std::vector<std::string_view> buffers_;
 };
 
 /// The bytes of a `data:` URI. \throws InputError in the name of `where`

@@ -34,6 +34,8 @@ constexpr std::array<TypeName, 16> type_names{{{"char", PlyType::int8},
                                                {"double", PlyType::float64},
                                                {"float64", PlyType::float64}}};
 
+constexpr std::size_t most_properties = 1000;
+
 PlyType read_type(const TextReader& reader, std::string_view word) {
     for (const TypeName& t : type_names)
         if (t.name == word) return t.type;
@@ -119,6 +121,9 @@ PlyHeader read_ply_header(const std::string& path, std::string_view bytes) {
             header.elements.push_back(read_element(reader));
         } else if (keyword == "property" && !header.elements.empty()) {
             auto& properties = header.elements.back().properties;
+            if (properties.size() == most_properties)
+                reader.fail("more than " + std::to_string(most_properties) +
+                            " properties of an element; accepted: fewer");
             properties.push_back(read_property(reader));
             if (std::ranges::count(properties, properties.back().name, &PlyProperty::name) > 1)
                 reader.fail("property " + in_quotes(properties.back().name) +

@@ -17,12 +17,19 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <set>
 
 namespace transillum {
 
 namespace {
+
+const Json& member_or_null(const Json& object, const char* key) {
+    static const Json null;
+    const auto found = object.find(key);
+    return found == object.end() ? null : *found;
+}
 
 class GltfReader {
 public:
@@ -34,6 +41,7 @@ public:
 
 private:
     void check_extensions();
+    void check_size(const std::vector<GltfNode>& nodes) const;
     void read_node(const GltfNode& node);
     void read_camera(const GltfNode& node, const Json& json);
     void read_primitive(const GltfNode& node, const std::string& place, const Json& primitive);
@@ -233,6 +241,42 @@ void GltfReader::read_node(const GltfNode& node) {
                        primitive);
 }
 
+/// Nodes may share meshes, and primitives accessors, so that a small file can ask for more than any
+/// memory holds.
+void GltfReader::check_size(const std::vector<GltfNode>& nodes) const {
+    constexpr double most = 3.0 * (1 << 25);
+    const auto corners_of_mesh = [&](std::size_t index) {
+        double corners = 0.0;
+        for (const Json& primitive : document_.root().at("meshes")[index].at("primitives")) {
+            const Json& attributes = primitive.at("attributes");
+            for (const Json* accessor :
+                 {&member_or_null(primitive, "indices"), &member_or_null(attributes, "POSITION")})
+                if (!accessor->is_null()) {
+                    const auto count = static_cast<double>(size_value(
+                        document_, document_.element("accessors", *accessor), "count", 0));
+                    // One alone is no larger than the file, or refused when it is read.
+                    if (count <= most) corners += count;
+                }
+        }
+        return corners;
+    };
+    std::map<std::size_t, double> of_mesh;
+    double corners = 0.0;
+    for (const GltfNode& node : nodes) {
+        const Json& json = document_.root().at("nodes")[node.index];
+        if (!json.contains("mesh")) continue;
+        const std::size_t mesh = document_.index_into("meshes", json.at("mesh"));
+        const auto [found, is_new] = of_mesh.try_emplace(mesh, 0.0);
+        if (is_new) found->second = corners_of_mesh(mesh);
+        corners += found->second;
+        if (corners > most)
+            document_.fail(place_of("nodes", node.index),
+                           "more than " + shown(most) +
+                               " vertices and indices up to it, each counted as often as nodes "
+                               "show it; accepted: fewer");
+    }
+}
+
 void GltfReader::apply_textures() {
     std::vector<bool> used(scene_.materials.size(), false);
     for (const Polygon& polygon : scene_.polygons) used[polygon.material] = true;
@@ -250,7 +294,9 @@ void GltfReader::apply_textures() {
 Scene GltfReader::read() {
     check_extensions();
     scene_.materials = read_gltf_materials(document_, monitor_);
-    for (const GltfNode& node : flatten_nodes(document_)) read_node(node);
+    const std::vector<GltfNode> nodes = flatten_nodes(document_);
+    check_size(nodes);
+    for (const GltfNode& node : nodes) read_node(node);
     if (std::ranges::count(has_uvs_, 1) == 0) scene_.uvs.clear();
     apply_textures();
     finish_textures(scene_, has_uvs_, monitor_);

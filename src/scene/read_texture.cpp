@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <limits>
 #include <memory>
 
@@ -18,6 +19,10 @@ namespace {
 
 /// Larger than any texture, smaller than what a damaged header may claim.
 constexpr std::int64_t most_pixels = std::int64_t{1} << 28;
+
+/// An image of one bit and one colour is deflated to a byte for 8256 pixels.
+constexpr int most_pixels_per_byte = 10000;
+constexpr std::int64_t always_accepted = std::int64_t{1} << 20;
 
 std::string first_line(const std::string& text) {
     return text.substr(0, text.find('\n'));
@@ -44,7 +49,7 @@ Channels find_channels(const OIIO::ImageSpec& spec, const std::string& name) {
     return channels;
 }
 
-void check_size(const OIIO::ImageSpec& spec, const std::string& name) {
+void check_size(const OIIO::ImageSpec& spec, const std::string& name, std::uintmax_t bytes) {
     const auto pixels = static_cast<std::int64_t>(spec.image_pixels());
     if (spec.deep || spec.depth > 1)
         throw InputError(name, "a deep or volume image; accepted: flat images");
@@ -53,6 +58,12 @@ void check_size(const OIIO::ImageSpec& spec, const std::string& name) {
                                    std::to_string(spec.height) + " pixels, " +
                                    std::to_string(spec.nchannels) + " channels; accepted: 1 to " +
                                    std::to_string(most_pixels) + " pixels, 1 to 64 channels");
+    if (pixels > always_accepted &&
+        static_cast<double>(pixels) / most_pixels_per_byte > static_cast<double>(bytes))
+        throw InputError(name, "says " + std::to_string(spec.width) + " x " +
+                                   std::to_string(spec.height) + " pixels, but has " +
+                                   std::to_string(bytes) + " bytes; accepted: one byte for " +
+                                   std::to_string(most_pixels_per_byte) + " pixels at least");
 }
 
 /// Decoded value of every integer of a type.
@@ -70,11 +81,11 @@ std::vector<float> decoding_table(ImageUse use) {
 
 class Decoder {
 public:
-    Decoder(OIIO::ImageInput& image, const std::string& name, ImageUse use)
-        : image_(image), spec_(image.spec()), name_(name), use_(use) {}
+    Decoder(OIIO::ImageInput& image, const std::string& name, ImageUse use, std::uintmax_t bytes)
+        : image_(image), spec_(image.spec()), name_(name), use_(use), bytes_(bytes) {}
 
     TextureImage read() {
-        check_size(spec_, name_);
+        check_size(spec_, name_, bytes_);
         channels_ = find_channels(spec_, name_);
         result_.texture.name = name_;
         result_.texture.width = spec_.width;
@@ -130,6 +141,7 @@ private:
     const OIIO::ImageSpec spec_;
     const std::string& name_;
     ImageUse use_;
+    std::uintmax_t bytes_;  ///< of its file
     Channels channels_;
     TextureImage result_;
 };
@@ -183,7 +195,10 @@ TextureImage read_texture(const std::string& name, ImageUse use, Monitor& monito
     const auto image = OIIO::ImageInput::open(file, &config);
     if (!image)
         throw InputError(name, "cannot be read as an image: " + first_line(OIIO::geterror()));
-    TextureImage result = Decoder(*image, name, use).read();
+    std::error_code unknown;
+    const std::uintmax_t size =
+        bytes.empty() ? std::filesystem::file_size(name, unknown) : std::uintmax_t{bytes.size()};
+    TextureImage result = Decoder(*image, name, use, size).read();
     mend_values(result, use, name, monitor);
     return result;
 }

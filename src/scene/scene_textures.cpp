@@ -12,6 +12,9 @@ namespace transillum {
 
 namespace {
 
+/// Of all textures: materials that differ in a factor have a texture each of one image.
+constexpr std::size_t most_texels = std::size_t{1} << 28;
+
 template <class Visit>
 void for_textures(MaterialTextures& t, Visit visit) {
     for (std::int32_t* index : {&t.diffuse, &t.specular, &t.roughness, &t.emission})
@@ -42,6 +45,12 @@ Textured add_texture(Scene& scene, Texture texture) {
     if (std::ranges::all_of(texture.texels,
                             [&](const Spectrum& t) { return t == texture.texels[0]; }))
         return {texture.texels[0]};
+    std::size_t texels = texture.texels.size();
+    for (const auto& other : scene.textures) texels += other->texels.size();
+    if (texels > most_texels)
+        throw InputError(texture.name, "brings the scene's textures to more than " +
+                                           std::to_string(most_texels) +
+                                           " texels; accepted: fewer");
     texture.build_levels();
     const Spectrum mean = texture.mean();
     scene.textures.push_back(std::make_shared<const Texture>(std::move(texture)));

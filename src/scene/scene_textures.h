@@ -15,7 +15,8 @@ struct Textured {
     std::int32_t texture = -1;  ///< index into Scene::textures
 };
 
-/// Adds a texture to a scene, unless all its texels are alike.
+/// Adds a texture to a scene, unless all its texels are alike. \throws InputError where the scene's
+/// textures get larger than memory is likely to be.
 [[nodiscard]] Textured add_texture(Scene& scene, Texture texture);
 
 /// Drops textures that no material names any more.

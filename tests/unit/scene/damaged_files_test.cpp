@@ -1,4 +1,6 @@
 // Whatever happens to a file's bytes, it is refused with a typed error, or what it gives is sound.
+// Runs with the address and undefined-behaviour sanitizers on.
+#include "unit/scene/damaged_samples.h"
 #include "unit/scene/scene_files.h"
 
 #include <random>
@@ -6,63 +8,6 @@
 namespace transillum {
 
 namespace {
-
-struct Sample {
-    std::string name, bytes;
-};
-
-void PrintTo(const Sample& sample, std::ostream* out) {
-    *out << sample.name;
-}
-
-std::string read_all(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
-
-std::string floats(std::initializer_list<float> values) {
-    std::string bytes;
-    for (const float v : values) bytes += bytes_of(v);
-    return bytes;
-}
-
-std::string binary_ply() {
-    std::string bytes =
-        "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\nproperty float "
-        "y\n"
-        "property float z\nelement face 1\nproperty list uchar int vertex_index\nend_header\n";
-    bytes += floats({0, 0, 0, 1, 0, 0, 0, 1, 0});
-    bytes += '\3';
-    for (int i = 0; i < 3; ++i) bytes += bytes_of(i);
-    return bytes;
-}
-
-std::string binary_stl() {
-    std::string bytes(80, ' ');
-    bytes += bytes_of(1);
-    bytes += floats({0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0});
-    return bytes.append(2, '\0');
-}
-
-std::vector<Sample> samples() {
-    const std::string corners = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
-    return {{"obj",
-             "o a\nv 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nvn 0 0 1\nusemtl m\nf 1/1/1 2/1/1 3/1/1\nf "
-             "-1 \\\n-2 -3\n"},
-            {"off", "OFF\n4 2 0\n" + corners + "4 0 1 2 3\n3 0 1 2 1 0 0\n"},
-            {"ply",
-             "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float "
-             "y\nproperty float z\n"
-             "element face 1\nproperty list uchar int vertex_indices\nend_header\n" +
-                 corners + "4 0 1 2 3\n"},
-            {"ply", binary_ply()},
-            {"stl",
-             "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 "
-             "0\nendloop\n"
-             "endfacet\nendsolid a\n"},
-            {"stl", binary_stl()},
-            {"gltf", read_all(TRANSILLUM_SOURCE_DIR "/data/scenes/cornell.gltf")}};
-}
 
 void damage(std::string& bytes, std::mt19937& random) {
     const auto below = [&](std::size_t n) { return static_cast<std::size_t>(random()) % n; };
@@ -107,28 +52,112 @@ void expect_sound(const Scene& scene) {
     EXPECT_TRUE(scene.uvs.empty() || scene.uvs.size() == scene.corners.size());
 }
 
-class DamagedFiles : public SceneFiles, public testing::WithParamInterface<Sample> {};
+class DamagedFiles : public SceneFiles, public testing::WithParamInterface<Sample> {
+protected:
+    /// Whether the sample is refused; as it should be, if so.
+    bool is_refused(const Sample& sample) {
+        for (const auto& [name, bytes] : sample.beside) write(name, bytes);
+        try {
+            expect_sound(load(sample.file, sample.bytes));
+            return false;
+        } catch (const InputError& error) {
+            const std::string message = error.what();
+            EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+            EXPECT_NE(message.find(folder_.string()), std::string::npos) << message;
+            EXPECT_LT(message.size(), 1000u);
+            return true;
+        }
+    }
+};
+
+TEST_P(DamagedFiles, AreWholeAtFirst) {
+    EXPECT_FALSE(is_refused(GetParam()));
+}
 
 TEST_P(DamagedFiles, AreRefusedOrSound) {
     std::mt19937 random(1);
     int refused = 0;
-    constexpr int trials = 600;
+    constexpr int trials = 400;
     for (int trial = 0; trial < trials; ++trial) {
-        std::string bytes = GetParam().bytes;
-        for (int i = 0; i <= trial % 4; ++i) damage(bytes, random);
-        try {
-            expect_sound(load("x." + GetParam().name, bytes));
-        } catch (const InputError& error) {
-            ++refused;
-            EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
-        }
+        Sample sample = GetParam();
+        for (int i = 0; i <= trial % 4; ++i) damage(sample.target(), random);
+        refused += is_refused(sample);
     }
     // Both outcomes occur: damage to a coordinate's last digits leaves a file as good as before.
     EXPECT_GT(refused, 0);
     EXPECT_LT(refused, trials);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, DamagedFiles, testing::ValuesIn(samples()));
+TEST_P(DamagedFiles, AreRefusedOrSoundWhereverTheyEnd) {
+    const std::size_t size = GetParam().target().size();
+    // Of the long file every seventh byte, which falls on every kind of place.
+    const std::size_t step = size > 3000 ? 7 : 1;
+    int refused = 0;
+    for (std::size_t end = 0; end < size; end += step) {
+        Sample sample = GetParam();
+        sample.target().resize(end);
+        refused += is_refused(sample);
+    }
+    EXPECT_GT(refused, 0);
+}
+
+TEST_P(DamagedFiles, OfOneByteOverAndOverAreRefused) {
+    for (const char byte : {'\0', ' ', '\n', '1', '-', '{', '[', '"', '\xff', '#', '/', 'f'})
+        for (const std::size_t size : {1u, 20u, 83u, 84u, 134u, 5000u}) {
+            Sample sample = GetParam();
+            if (sample.damaged >= 0) continue;
+            sample.bytes.assign(size, byte);
+            EXPECT_TRUE(is_refused(sample)) << size << " of " << static_cast<int>(byte);
+        }
+}
+
+TEST_P(DamagedFiles, MayBeFoldersOrEmptyOrAbsent) {
+    const std::filesystem::path file = folder_ / GetParam().file;
+    EXPECT_THROW((void)load_scene(file, {}, monitor_), IoError);
+    std::filesystem::create_directory(file);
+    EXPECT_THROW((void)load_scene(file, {}, monitor_), IoError);
+    std::filesystem::remove(file);
+    EXPECT_THROW((void)load(GetParam().file, ""), InputError);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, DamagedFiles, testing::ValuesIn(samples()),
+                         [](const auto& info) { return info.param.name; });
+
+using DamagedContainers = DamagedFiles;
+
+/// What the container says of its own size does not give the damage away.
+TEST_P(DamagedContainers, AreRefusedWithLengthsPutRight) {
+    const std::string& whole = GetParam().bytes;
+    const auto put = [](std::string& bytes, std::size_t at, std::size_t value) {
+        if (at + 4 <= bytes.size())
+            bytes.replace(at, 4, bytes_of(static_cast<std::uint32_t>(value)));
+    };
+    std::uint32_t json_size = 0;
+    std::memcpy(&json_size, whole.data() + 12, 4);
+    const std::size_t binary = 20 + json_size;
+    for (std::size_t end = 20; end < whole.size(); ++end) {
+        Sample sample = GetParam();
+        sample.bytes.resize(end);
+        put(sample.bytes, 8, end);
+        put(sample.bytes, 12, std::min<std::size_t>(json_size, end - 20));
+        if (end >= binary + 8) put(sample.bytes, binary, end - binary - 8);
+        // The padding at the end may go.
+        EXPECT_TRUE(is_refused(sample) || end + 3 >= whole.size()) << end;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, DamagedContainers, testing::Values(samples().back()),
+                         [](const auto& info) { return info.param.name; });
+
+TEST(RealDataDamaged, AreRefusedOrSound) {
+    const std::filesystem::path broken =
+        std::filesystem::path(TRANSILLUM_TEST_DATA) / "meshes/broken";
+    if (!std::filesystem::exists(broken)) GTEST_SKIP() << "no meshes in " << broken;
+    for (const auto& entry : std::filesystem::directory_iterator(broken)) {
+        Monitor silent;
+        EXPECT_THROW((void)load_scene(entry.path(), {}, silent), InputError) << entry.path();
+    }
+}
 
 }  // namespace
 
