@@ -14,7 +14,7 @@ RepairedScene repair_scene(const Scene& scene, const RepairOptions& options, con
     report.snapped_by = report.largest_move = grid.largest_move;
     SoupCounts counts;
     const TriangleSoup made = make_soup(repaired.scene, &counts);
-    if (counts.welded > 0) report.steps.push_back({"welded vertices at one place", counts.welded});
+    report.welded = counts.welded;
     if (counts.without_area > 0)
         report.steps.push_back({"dropped polygons without area", counts.without_area});
     TriangleSoup soup = made;
