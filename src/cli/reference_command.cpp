@@ -1,6 +1,7 @@
 #include "cli/camera_options.h"
 #include "cli/command.h"
 #include "cli/console.h"
+#include "cli/repair_options.h"
 #include "cli/scene_options.h"
 #include "cli/spectral_options.h"
 
@@ -19,6 +20,7 @@ struct ReferenceArguments {
     CameraOptions camera;
     ImageOptions image;
     PathTraceOptions path_trace;
+    RepairOptions repair{.rounding = Rounding::dyadic};
     int threads = 0;
 };
 
@@ -28,10 +30,11 @@ int run(ReferenceArguments& a, const Common& common) {
     const auto [width, height] = parse_size(a.camera.size);
     a.path_trace.width = width;
     a.path_trace.height = height;
-    const Scene scene = read_scene(a.scene, console);
+    const Workers workers(a.threads);
+    const Scene scene =
+        repair_scene(read_scene(a.scene, console), a.repair, workers, console).scene;
     const SurfaceMesh surface = build_surface(scene, {}, console);
     const Camera camera = make_camera(a.camera, scene.cameras, surface);
-    const Workers workers(a.threads);
     const auto spectral = make_spectral_options(a.spectral, a.scene.max_albedo, scene);
     const Image image =
         spectral
@@ -48,6 +51,7 @@ void add_reference(CLI::App& program, const Common& common, int& exit_code) {
     CLI::App* command =
         program.add_subcommand("reference", "Path-trace a scene, to measure errors against");
     add_scene_options(*command, a->scene);
+    add_repair_options(*command, "--repair", a->repair);
     add_spectral_options(*command, a->spectral);
     add_camera_options(*command, a->camera);
     add_image_options(*command, a->image);

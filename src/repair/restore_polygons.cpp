@@ -127,7 +127,6 @@ private:
         Material m = scene_.materials[number];
         std::uint32_t variant = number;
         if (!m.back_reflects || (m.emits() && !m.back_emits)) {
-            m.name += " (two sides)";
             m.back_reflects = true;
             m.back_emits = m.emits();
             variant = static_cast<std::uint32_t>(restored_.materials.size());

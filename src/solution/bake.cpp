@@ -163,16 +163,6 @@ void require_room_for_quarters(const BakeOptions& o) {
 
 namespace {
 
-/// Repairs the scene, on the grid that patches need.
-RepairedScene make_sound(const Scene& scene, RepairOptions options, const Workers& workers,
-                         Monitor& monitor) {
-    options.rounding = Rounding::dyadic;
-    RepairedScene repaired = repair_scene(scene, options, workers, monitor);
-    for (const std::string& left : repaired.report.left)
-        monitor.warn(fmt::format("{}: not repaired: {}", scene.path, left));
-    return repaired;
-}
-
 /// What was done to the meshes, or why nothing was.
 std::vector<Decision> decisions_about(const RepairReport& report, RepairLevel level,
                                       const SnapGrid& grid) {
@@ -189,8 +179,18 @@ std::vector<Decision> decisions_about(const RepairReport& report, RepairLevel le
 
 }  // namespace
 
-Layout lay_out_solution(const Scene& scene, const BakeOptions& options, const Baker& baker,
+RepairedScene make_sound(const Scene& scene, RepairOptions options, const Workers& workers,
+                         Monitor& monitor) {
+    options.rounding = Rounding::dyadic;
+    RepairedScene repaired = repair_scene(scene, options, workers, monitor);
+    for (const std::string& left : repaired.report.left)
+        monitor.warn(fmt::format("{}: not repaired: {}", scene.path, left));
+    return repaired;
+}
+
+Layout lay_out_solution(const RepairedScene& sound, const BakeOptions& options, const Baker& baker,
                         StopWatch& watch, Monitor& monitor) {
+    const Scene& scene = sound.scene;
     require_room_for_quarters(options);
     Layout layout;
     Solution& s = layout.solution;
@@ -198,9 +198,7 @@ Layout lay_out_solution(const Scene& scene, const BakeOptions& options, const Ba
     s.cameras = scene.cameras;
     s.lighting = scene.lighting;
     record_settings(options, s);
-    const RepairedScene sound = make_sound(scene, options.repair, baker.workers(), monitor);
-    watch.lap("repair");
-    s.surface = build_surface(sound.scene, options.surface, monitor);
+    s.surface = build_surface(scene, options.surface, monitor);
     SnapGrid& grid = s.surface.grid;
     grid.largest_move = std::max(grid.largest_move, sound.report.snapped_by);
     layout.decisions = decisions_about(sound.report, options.repair.level, grid);
@@ -218,7 +216,9 @@ Solution bake(const Scene& scene, const BakeOptions& options, const Workers& wor
               Monitor& monitor, RunRecord* run) {
     StopWatch watch(run);
     const Baker baker(options, workers, monitor, watch);
-    Layout layout = lay_out_solution(scene, options, baker, watch, monitor);
+    const RepairedScene sound = make_sound(scene, options.repair, workers, monitor);
+    watch.lap("repair");
+    Layout layout = lay_out_solution(sound, options, baker, watch, monitor);
     Solution& s = layout.solution;
     // As many again as the phases took: what they inherited from larger patches must fade.
     const std::uint64_t least = 2 * layout.refined.directions;

@@ -102,13 +102,6 @@ std::string name_of(const Bands& bands, int group) {
                        bands.edge(bands.band_of(group, channel_count - 1) + 1));
 }
 
-Scene with_colours(Scene scene, const Colours& colours) {
-    scene.materials = colours.materials;
-    scene.textures = colours.textures;
-    scene.lighting = colours.lighting;
-    return scene;
-}
-
 }  // namespace
 
 SpectralSolution bake_bands(const Scene& scene, const SpectralOptions& spectral,
@@ -116,13 +109,18 @@ SpectralSolution bake_bands(const Scene& scene, const SpectralOptions& spectral,
                             RunRecord* run) {
     StopWatch watch(run);
     const Bands bands(spectral.bands);
-    const Colours of_scene{scene.materials, scene.textures, scene.lighting};
+    RepairedScene sound = make_sound(scene, options.repair, workers, monitor);
+    watch.lap("repair");
+    const Colours of_scene{sound.scene.materials, sound.scene.textures, sound.scene.lighting};
     const Colours rgb = measured_colours(of_scene, spectral, bands, monitor);
     BakeOptions of_group = options;
     of_group.iteration.seconds /= bands.groups();
 
     Baker baker(of_group, workers, monitor, watch);
-    Layout layout = lay_out_solution(with_colours(scene, rgb), options, baker, watch, monitor);
+    sound.scene.materials = rgb.materials;
+    sound.scene.textures = rgb.textures;
+    sound.scene.lighting = rgb.lighting;
+    Layout layout = lay_out_solution(sound, options, baker, watch, monitor);
     baker.band_groups = static_cast<std::uint64_t>(bands.groups());
     Solution& s = layout.solution;
     std::vector<Decision>& decisions = layout.decisions;

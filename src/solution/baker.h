@@ -36,8 +36,6 @@ public:
         Solution& solution, std::uint64_t iterations,
         std::shared_ptr<const IterationSums> start = nullptr, bool keep_sums = false) const;
 
-    [[nodiscard]] const Workers& workers() const { return workers_; }
-
     std::uint64_t band_groups = 0;  ///< whose results are to be kept, for the estimate of memory
 
 private:
@@ -53,6 +51,10 @@ private:
     StopWatch& watch_;
 };
 
+/// Repairs a scene as the options ask for it, on the grid that patches need; warns of what is left.
+[[nodiscard]] RepairedScene make_sound(const Scene& scene, RepairOptions options,
+                                       const Workers& workers, Monitor& monitor);
+
 /// What comes before the Baker's last run: a solution with surface and patches, refined where
 /// options say so; of that, the decisions tell.
 struct Layout {
@@ -60,7 +62,7 @@ struct Layout {
     Refined refined;
     std::vector<Decision> decisions;
 };
-[[nodiscard]] Layout lay_out_solution(const Scene& scene, const BakeOptions& options,
+[[nodiscard]] Layout lay_out_solution(const RepairedScene& sound, const BakeOptions& options,
                                       const Baker& baker, StopWatch& watch, Monitor& monitor);
 
 }  // namespace transillum
