@@ -95,6 +95,7 @@ int run(RepairArguments& a, const Common& common) {
     Checks checks;
     if (!a.no_check) checks.before = check_scene(scene, check, workers, console);
     RepairedScene repaired = repair_scene(scene, a.repair, workers, console);
+    if (console.stop_requested()) return ExitCode::interrupted;
     if (!polygons) triangulate_scene(repaired.scene);
     save_scene(repaired.scene, a.output, console);
     if (!a.no_check) checks.after = check_scene(repaired.scene, check, workers, console);

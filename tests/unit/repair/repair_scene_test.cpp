@@ -11,6 +11,7 @@
 #include <glm/geometric.hpp>
 
 #include <cmath>
+#include <map>
 
 namespace transillum {
 namespace {
@@ -105,6 +106,46 @@ TEST(RepairScene, KeepsAllOfEveryTriangle) {
             glm::length(area_vector(parts, t));
     for (std::uint32_t t = 0; t < 40; ++t)
         EXPECT_NEAR(area[t] / glm::length(area_vector(soup, t)), 1.0, 1e-12);
+}
+
+/// Neighbours have to be cut alike along their edge: not a single border may come of it.
+TEST(RepairScene, KeepsClosedSurfacesClosed) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> number(0.0, 1.0);
+    for (int round = 0; round < 4; ++round) {
+        SceneBuilder b;
+        for (int i = 0; i < 6; ++i) {
+            const std::size_t first = b.scene.positions.size();
+            if (i % 2 == 0)
+                b.box({0, 0, 0}, {1, 1, 1}, Facing::outwards);
+            else
+                b.sphere({0, 0, 0}, 0.7, 14, Facing::outwards);
+            const double c = std::cos(3.0 * number(random)), s = std::sqrt(1.0 - c * c);
+            const glm::dvec3 by(number(random), number(random), number(random));
+            // Turned in two planes by an angle that is no fraction; or only moved, so that faces
+            // of boxes overlap.
+            for (std::size_t v = first; v < b.scene.positions.size(); ++v) {
+                glm::dvec3& p = b.scene.positions[v];
+                if (round % 2 == 0) {
+                    p = {c * p.x - s * p.y, s * p.x + c * p.y, p.z};
+                    p = {p.x, c * p.y - s * p.z, s * p.y + c * p.z};
+                    p += by;
+                } else {
+                    p += glm::dvec3(i == 2 ? 0.5 : 0.0, i == 4 ? 0.25 : 0.0, by.z);
+                }
+            }
+        }
+        const RepairedScene repaired = repair(b.scene);
+        expect_sound(repaired.scene);
+        EXPECT_GT(repaired.report.faces_cut, 100u);
+        EXPECT_EQ(repaired.report.pairs_left, 0u);
+        std::map<std::pair<std::uint32_t, std::uint32_t>, int> faces;
+        const TriangleSoup soup = make_soup(repaired.scene);
+        for (const SoupTriangle& t : soup.triangles)
+            for (int i = 0; i < 3; ++i)
+                ++faces[std::minmax(t.vertices[i], t.vertices[(i + 1) % 3])];
+        for (const auto& [edge, count] : faces) ASSERT_GT(count, 1) << "round " << round;
+    }
 }
 
 TEST(RepairScene, CountsOverlapsOnce) {
