@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace transillum {
 
@@ -22,6 +23,9 @@ namespace {
 constexpr int coarse_bits = 23;
 /// The coarse grid has to be this much coarser than what coordinates are rounded to.
 constexpr double room = 8.0;
+
+/// Beside a length, one that rounding could have made.
+constexpr double as_nothing = 0x1p-45;
 
 class SoupRepair {
 public:
@@ -59,7 +63,8 @@ private:
     }
 
     void drop_faulty_faces() {
-        const std::vector<FaultyFace> faults = find_faulty_faces(soup_, scene_);
+        std::vector<FaultyFace> faults = find_faulty_faces(soup_, scene_);
+        while (close_needles(faults)) faults = find_faulty_faces(soup_, scene_);
         std::array<std::uint64_t, 5> counts{};
         for (std::size_t t = 0; t < faults.size(); ++t) {
             ++counts[static_cast<std::size_t>(faults[t].fault)];
@@ -80,6 +85,28 @@ private:
         told("dropped faces without area", counts[2]);
         told("dropped duplicate faces", counts[3]);
         told("merged faces wound both ways into one with two sides", counts[4]);
+    }
+
+    /// Without a needle that is too thin to have an area, its long edges would be a crack: where
+    /// the short one is as nothing beside them, its ends become one. \returns whether there were
+    /// any
+    bool close_needles(const std::vector<FaultyFace>& faults) {
+        std::vector<std::uint32_t> target(soup_.positions.size());
+        std::iota(target.begin(), target.end(), 0u);
+        for (std::size_t t = 0; t < faults.size(); ++t) {
+            if (faults[t].fault != FaceFault::zero_area) continue;
+            const auto& v = soup_.triangles[t].vertices;
+            std::array<double, 3> length{};
+            for (int i = 0; i < 3; ++i)
+                length[i] = glm::length(soup_.positions[v[(i + 1) % 3]] - soup_.positions[v[i]]);
+            const auto i = std::ranges::min_element(length) - length.begin();
+            if (length[i] > as_nothing * std::ranges::max(length)) continue;
+            const auto [first, second] = std::minmax(v[i], v[(i + 1) % 3]);
+            if (target[first] == first && target[second] == second) target[second] = first;
+        }
+        const std::uint64_t closed = join(target);
+        told("closed needles without area", closed);
+        return closed > 0;
     }
 
     std::vector<MeetingPair> find_pairs(std::size_t most = SIZE_MAX) {
