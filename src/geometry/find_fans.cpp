@@ -1,5 +1,7 @@
 #include "geometry/find_fans.h"
 
+#include <transillum/base/disjoint_sets.h>
+
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 
 #include <glm/geometric.hpp>
@@ -7,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 
 namespace transillum {
 
@@ -19,26 +20,6 @@ struct Traits : OpenMesh::DefaultTraits {
     VertexAttributes(OpenMesh::Attributes::None);
 };
 using HalfEdgeMesh = OpenMesh::TriMesh_ArrayKernelT<Traits>;
-
-/// Disjoint sets of corners, 3 * triangle + corner.
-class CornerSets {
-public:
-    explicit CornerSets(std::size_t n) : parent_(n) {
-        std::iota(parent_.begin(), parent_.end(), 0u);
-    }
-    std::uint32_t find(std::uint32_t i) {
-        while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-        return i;
-    }
-    void join(std::uint32_t a, std::uint32_t b) {
-        a = find(a);
-        b = find(b);
-        parent_[std::max(a, b)] = std::min(a, b);
-    }
-
-private:
-    std::vector<std::uint32_t> parent_;
-};
 
 /// Would the half-edge structure have to hold a third face at an edge, or two fans at a vertex?
 bool is_complex(const HalfEdgeMesh& mesh, const std::array<OpenMesh::VertexHandle, 3>& v) {
@@ -109,7 +90,7 @@ void find_fans(SurfaceMesh& mesh, double crease_angle, SurfaceReport& report) {
     const double least_cosine = std::cos(crease_angle * std::numbers::pi / 180.0);
     const std::vector<Edge> shared_by_many = edges_of_many(mesh);
     report.nonmanifold_edges = shared_by_many.size();
-    CornerSets sets(3 * mesh.triangles.size());
+    DisjointSets sets(3 * mesh.triangles.size());
     for (const auto edge : half_edges.edges()) {
         const auto h = half_edges.halfedge_handle(edge, 0);
         if (half_edges.is_boundary(edge)) {

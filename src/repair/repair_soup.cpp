@@ -42,6 +42,7 @@ public:
 
     void run() {
         drop_faulty_faces();
+        if (soup_.triangles.empty()) return;
         if (options_.level == RepairLevel::full) {
             meet_in_edges();
             // What is cut may leave vertices close to others again.

@@ -5,6 +5,8 @@
 #include "repair/part_uvs.h"
 #include "repair/triangle_meeting.h"
 
+#include <transillum/base/disjoint_sets.h>
+
 #include <algorithm>
 #include <numeric>
 #include <tuple>
@@ -14,24 +16,6 @@ namespace transillum {
 namespace {
 
 using Corners = std::array<std::uint32_t, 3>;
-
-/// Sets of triangles that overlap each other.
-class Clusters {
-public:
-    explicit Clusters(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0u); }
-    std::uint32_t find(std::uint32_t i) {
-        while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-        return i;
-    }
-    void join(std::uint32_t a, std::uint32_t b) {
-        a = find(a);
-        b = find(b);
-        parent_[std::max(a, b)] = std::min(a, b);
-    }
-
-private:
-    std::vector<std::uint32_t> parent_;
-};
 
 struct Met {
     std::uint32_t a = 0, b = 0;
@@ -95,7 +79,7 @@ bool has_corner(const Corners& corners, std::uint32_t number) {
 }
 
 /// Walls of two materials have two triangles on the same vertices, which have to be cut alike.
-void join_alike(const TriangleSoup& soup, const std::vector<char>& is_cut, Clusters& clusters) {
+void join_alike(const TriangleSoup& soup, const std::vector<char>& is_cut, DisjointSets& clusters) {
     std::vector<std::pair<Corners, std::uint32_t>> cut;
     for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) {
         if (!is_cut[t]) continue;
@@ -113,7 +97,7 @@ std::vector<PlaneInput> gather_planes(const TriangleSoup& soup,
                                       const std::vector<Met>& met, const Crossings& crossings,
                                       const ExactPoints& points) {
     const std::size_t n = soup.triangles.size();
-    Clusters clusters(n);
+    DisjointSets clusters(n);  // of triangles that overlap each other
     std::vector<char> is_cut(n);
     for (const MeetingPair& pair : pairs) {
         if (pair.kind != Meeting::overlap) continue;

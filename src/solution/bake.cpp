@@ -16,15 +16,17 @@ namespace transillum {
 
 namespace {
 
-void require_light(const Scene& scene, const SurfaceMesh& mesh) {
+/// \param faces the scene's polygons, or the triangles that are left of them
+template <class Faces>
+void require_light(const Scene& scene, const Faces& faces) {
     if (!scene.lighting.lights.empty() || scene.lighting.environment.shines()) return;
-    for (const RootTriangle& t : mesh.triangles)
-        if (mesh.materials[t.material].emits()) return;
+    for (const auto& face : faces)
+        if (scene.materials[face.material].emits()) return;
     throw InputError(
         scene.path,
-        fmt::format("no light: none of the materials of its {} triangles emits; accepted: at "
-                    "least one (OBJ: Ke, glTF: emissiveFactor), a light or an environment",
-                    mesh.triangles.size()));
+        fmt::format("no light: none of the materials of its {} faces emits; accepted: at least "
+                    "one (OBJ: Ke, glTF: emissiveFactor), a light or an environment",
+                    faces.size()));
 }
 
 void note_decisions(const Solution& s, Monitor& monitor) {
@@ -181,6 +183,7 @@ std::vector<Decision> decisions_about(const RepairReport& report, RepairLevel le
 
 RepairedScene make_sound(const Scene& scene, RepairOptions options, const Workers& workers,
                          Monitor& monitor) {
+    require_light(scene, scene.polygons);  // before the work
     options.rounding = Rounding::dyadic;
     RepairedScene repaired = repair_scene(scene, options, workers, monitor);
     for (const std::string& left : repaired.report.left)
@@ -202,7 +205,7 @@ Layout lay_out_solution(const RepairedScene& sound, const BakeOptions& options, 
     SnapGrid& grid = s.surface.grid;
     grid.largest_move = std::max(grid.largest_move, sound.report.snapped_by);
     layout.decisions = decisions_about(sound.report, options.repair.level, grid);
-    require_light(scene, s.surface);
+    require_light(scene, s.surface.triangles);
     s.patches = subdivide_uniformly(s.surface, options.subdivision);
     s.scene_hash = hash_scene(s.surface, s.lighting);
     watch.lap("geometry");
