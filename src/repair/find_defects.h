@@ -16,11 +16,12 @@ namespace transillum {
 [[nodiscard]] std::vector<std::uint32_t> find_near_vertices(const TriangleSoup& soup,
                                                             double tolerance);
 
-/// The same among the vertices in `which`, whether edges join them or not: what is left of a
-/// surface when its edges that are shorter than the tolerance are collapsed.
-[[nodiscard]] std::vector<std::uint32_t> find_close_vertices(const TriangleSoup& soup,
-                                                             const std::vector<bool>& which,
-                                                             double tolerance);
+/// Edges shorter than `tolerance`, between vertices in `which`: for every vertex, as above, what to
+/// take in its place to collapse them. Vertices that no edges lead to from each other stay apart,
+/// however near.
+[[nodiscard]] std::vector<std::uint32_t> find_short_edges(const TriangleSoup& soup,
+                                                          const std::vector<bool>& which,
+                                                          double tolerance);
 
 enum class FaceFault : std::uint8_t { none, repeated_index, zero_area, duplicate, opposite };
 

@@ -1,9 +1,11 @@
 #include "repair/find_defects.h"
 #include "repair/find_sheets.h"
+#include "repair/measure_shell.h"
 
 #include <glm/geometric.hpp>
 
 #include <array>
+#include <optional>
 
 namespace transillum {
 
@@ -26,13 +28,33 @@ std::vector<Ways> measure_ways(const TriangleSoup& soup, const Scene& scene, con
     return ways;
 }
 
-/// The way to turn, as in Ways.
-int way_to_turn(const Ways& ways, bool closed, double volume) {
+/// The way to turn where the larger one is, as in Ways; none where neither is clearly larger.
+std::optional<int> clear_way(const Ways& ways) {
     if (ways.emitting[0] > 0.0 || ways.emitting[1] > 0.0) return ways.emitting[0] > 0.0 ? 1 : 0;
     const int larger = ways.area[1] > ways.area[0] ? 1 : 0;
-    const bool is_clear = ways.area[larger] >= 0.6 * (ways.area[0] + ways.area[1]);
-    if (closed && !is_clear && volume != 0.0) return volume > 0.0 ? 1 : 0;
+    if (ways.area[larger] < 0.6 * (ways.area[0] + ways.area[1])) return {};
     return 1 - larger;
+}
+
+/// The one that looks inwards; of what is open, or encloses nothing, the smaller.
+int inward_way(const Ways& ways, const Shell& shell) {
+    const double volume = is_closed(shell) ? enclosed_volume(shell) : 0.0;
+    if (volume != 0.0) return volume > 0.0 ? 1 : 0;
+    return ways.area[1] > ways.area[0] ? 0 : 1;
+}
+
+/// Of every sheet, the way to turn; 2 where none is.
+std::vector<int> ways_to_turn(const TriangleSoup& soup, const EdgeTable& edges,
+                              const Sheets& sheets, const std::vector<Ways>& ways) {
+    std::vector<int> turn(sheets.size(), 2);
+    std::optional<Shells> shells;
+    for (std::uint32_t s = 0; s < sheets.size(); ++s) {
+        if (!sheets.mixed[s] || !sheets.orientable[s]) continue;
+        const std::optional<int> way = clear_way(ways[s]);
+        if (!way && !shells) shells.emplace(soup, edges, sheets);
+        turn[s] = way ? *way : inward_way(ways[s], shells->make(s));
+    }
+    return turn;
 }
 
 }  // namespace
@@ -41,6 +63,7 @@ Flips find_flips(const TriangleSoup& soup, const Scene& scene) {
     const EdgeTable edges(soup);
     const Sheets sheets = find_sheets(soup, edges);
     const std::vector<Ways> ways = measure_ways(soup, scene, sheets);
+    const std::vector<int> turn = ways_to_turn(soup, edges, sheets, ways);
     Flips flips;
     flips.turn.assign(soup.triangles.size(), false);
     flips.non_orientable = flips.emits_both_ways = flips.turn;
@@ -51,9 +74,8 @@ Flips find_flips(const TriangleSoup& soup, const Scene& scene) {
             flips.non_orientable[t] = true;
         } else if (w.emitting[0] > 0.0 && w.emitting[1] > 0.0) {
             flips.emits_both_ways[t] = true;
-        } else if (sheets.mixed[s]) {
-            const int way = way_to_turn(w, sheets.closed[s], sheets.volume[s]);
-            flips.turn[t] = (sheets.turned[t] ? 1 : 0) == way;
+        } else {
+            flips.turn[t] = (sheets.turned[t] ? 1 : 0) == turn[s];
         }
     }
     return flips;

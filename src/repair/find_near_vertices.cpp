@@ -77,54 +77,75 @@ private:
     std::vector<std::uint32_t> next_;
 };
 
-}  // namespace
+/// Vertices by turns, each for itself or in the place of one of those within the tolerance.
+class VertexJoins {
+public:
+    VertexJoins(const TriangleSoup& soup, double tolerance)
+        : soup_(soup),
+          corners_(soup),
+          grid_(soup.positions, tolerance),
+          next_joined_(soup.positions.size(), none),
+          taken_(soup.positions.size()) {
+        std::iota(taken_.begin(), taken_.end(), 0u);
+    }
 
-std::vector<std::uint32_t> find_near_vertices(const TriangleSoup& soup, double tolerance) {
-    std::vector<std::uint32_t> taken(soup.positions.size());
-    std::iota(taken.begin(), taken.end(), 0u);
-    if (soup.positions.empty() || !(tolerance > 0.0)) return taken;
-    const std::vector<bool> is_on_border = border_vertices(soup);
-    const VertexCorners corners(soup);
-    const auto share_triangle = [&](std::uint32_t a, std::uint32_t b) {
-        return std::ranges::any_of(corners[a], [&](std::uint32_t corner) {
-            const auto& v = soup.triangles[corner / 3].vertices;
-            return v[0] == b || v[1] == b || v[2] == b;
-        });
-    };
-    VertexGrid grid(soup.positions, tolerance);
-    std::vector<std::uint32_t> next_joined(soup.positions.size(), none);
-    for (std::uint32_t v = 0; v < soup.positions.size(); ++v) {
-        if (!is_on_border[v]) continue;
-        const std::uint32_t near = grid.nearest(v, [&](std::uint32_t candidate) {
-            for (std::uint32_t i = candidate; i != none; i = next_joined[i])
-                if (share_triangle(v, i)) return false;
-            return true;
+    /// \param by_triangle only one with which, or with what takes its place, it shares a triangle;
+    /// else only one with which it shares none
+    void add(std::uint32_t v, bool by_triangle) {
+        const std::uint32_t near = grid_.nearest(v, [&](std::uint32_t candidate) {
+            for (std::uint32_t i = candidate; i != none; i = next_joined_[i])
+                if (share_triangle(v, i)) return by_triangle;
+            return !by_triangle;
         });
         if (near == none) {
-            grid.add(v);
+            grid_.add(v);
         } else {
-            taken[v] = near;
-            next_joined[v] = std::exchange(next_joined[near], v);
+            taken_[v] = near;
+            next_joined_[v] = std::exchange(next_joined_[near], v);
         }
     }
+
+    [[nodiscard]] const std::vector<std::uint32_t>& taken() const { return taken_; }
+
+private:
+    [[nodiscard]] bool share_triangle(std::uint32_t a, std::uint32_t b) const {
+        return std::ranges::any_of(corners_[a], [&](std::uint32_t corner) {
+            const auto& v = soup_.triangles[corner / 3].vertices;
+            return v[0] == b || v[1] == b || v[2] == b;
+        });
+    }
+
+    const TriangleSoup& soup_;
+    VertexCorners corners_;
+    VertexGrid grid_;
+    std::vector<std::uint32_t> next_joined_, taken_;
+};
+
+std::vector<std::uint32_t> join_vertices(const TriangleSoup& soup, const std::vector<bool>& which,
+                                         double tolerance, bool by_triangle) {
+    VertexJoins joins(soup, tolerance);
+    for (std::uint32_t v = 0; v < soup.positions.size(); ++v)
+        if (which[v]) joins.add(v, by_triangle);
+    return joins.taken();
+}
+
+std::vector<std::uint32_t> all_as_they_are(const TriangleSoup& soup) {
+    std::vector<std::uint32_t> taken(soup.positions.size());
+    std::iota(taken.begin(), taken.end(), 0u);
     return taken;
 }
 
-std::vector<std::uint32_t> find_close_vertices(const TriangleSoup& soup,
-                                               const std::vector<bool>& which, double tolerance) {
-    std::vector<std::uint32_t> taken(soup.positions.size());
-    std::iota(taken.begin(), taken.end(), 0u);
-    if (soup.positions.empty() || !(tolerance > 0.0)) return taken;
-    VertexGrid grid(soup.positions, tolerance);
-    for (std::uint32_t v = 0; v < soup.positions.size(); ++v) {
-        if (!which[v]) continue;
-        const std::uint32_t close = grid.nearest(v, [](std::uint32_t) { return true; });
-        if (close == none)
-            grid.add(v);
-        else
-            taken[v] = close;
-    }
-    return taken;
+}  // namespace
+
+std::vector<std::uint32_t> find_near_vertices(const TriangleSoup& soup, double tolerance) {
+    if (soup.positions.empty() || !(tolerance > 0.0)) return all_as_they_are(soup);
+    return join_vertices(soup, border_vertices(soup), tolerance, false);
+}
+
+std::vector<std::uint32_t> find_short_edges(const TriangleSoup& soup,
+                                            const std::vector<bool>& which, double tolerance) {
+    if (soup.positions.empty() || !(tolerance > 0.0)) return all_as_they_are(soup);
+    return join_vertices(soup, which, tolerance, true);
 }
 
 }  // namespace transillum

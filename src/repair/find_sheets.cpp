@@ -1,7 +1,5 @@
 #include "repair/find_sheets.h"
 
-#include <glm/geometric.hpp>
-
 #include <algorithm>
 #include <numeric>
 
@@ -54,13 +52,6 @@ private:
     std::vector<std::uint8_t> turned_;  ///< against the parent
 };
 
-/// Six times the volume under a triangle, seen from a point.
-double cone_of(const TriangleSoup& soup, std::uint32_t triangle, const glm::dvec3& tip) {
-    const auto& v = soup.triangles[triangle].vertices;
-    return glm::dot(soup.positions[v[0]] - tip,
-                    glm::cross(soup.positions[v[1]] - tip, soup.positions[v[2]] - tip));
-}
-
 }  // namespace
 
 Sheets find_sheets(const TriangleSoup& soup, const EdgeTable& edges) {
@@ -89,22 +80,9 @@ Sheets find_sheets(const TriangleSoup& soup, const EdgeTable& edges) {
     }
     sheets.orientable.assign(first.size(), true);
     sheets.mixed.assign(first.size(), false);
-    sheets.closed.assign(first.size(), true);
-    sheets.volume.assign(first.size(), 0.0);
     for (const std::uint32_t t : twisted) sheets.orientable[sheets.sheet[t]] = false;
-    for (std::uint32_t e = 0; e < edges.size(); ++e)
-        if (edges[e].size() != 2)
-            for (const EdgeUse& use : edges[e]) sheets.closed[sheets.sheet[use.triangle()]] = false;
-    for (std::uint32_t t = 0; t < count; ++t) {
-        const std::uint32_t s = sheets.sheet[t];
-        if (repeats_vertex(soup.triangles[t])) sheets.closed[s] = false;
-        if (sheets.turned[t]) sheets.mixed[s] = true;
-        // Seen from a vertex of the sheet, so that places far from the origin cost no digits.
-        const glm::dvec3& tip = soup.positions[soup.triangles[first[s]].vertices[0]];
-        sheets.volume[s] += (sheets.turned[t] ? -1.0 : 1.0) * cone_of(soup, t, tip);
-    }
-    for (std::size_t s = 0; s < sheets.size(); ++s)
-        sheets.volume[s] = sheets.closed[s] && sheets.orientable[s] ? sheets.volume[s] / 6.0 : 0.0;
+    for (std::uint32_t t = 0; t < count; ++t)
+        if (sheets.turned[t]) sheets.mixed[sheets.sheet[t]] = true;
     return sheets;
 }
 

@@ -13,8 +13,6 @@ struct Sheets {
     std::vector<std::uint32_t> sheet;     ///< one a triangle
     std::vector<bool> turned;             ///< runs against its sheet's first triangle
     std::vector<bool> orientable, mixed;  ///< one a sheet; mixed: some run against others
-    std::vector<bool> closed;             ///< one a sheet: every edge has two faces
-    std::vector<double> volume;           ///< enclosed as if all ran like the first triangle
 
     [[nodiscard]] std::size_t size() const { return orientable.size(); }
 };

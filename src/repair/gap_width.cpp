@@ -164,7 +164,7 @@ Gap narrowest_gap(const TriangleSoup& soup, const TriangleTree& tree,
     };
     for (const auto& [pass, edge] : passes) {
         if (pass.distance >= std::min(narrowest.width, limit)) break;
-        const auto near = tree.near_to(pass.on_edge, limit);
+        const auto near = tree.near_to(pass.on_edge, std::min(narrowest.width, limit));
         keep(gap_at(soup, border[edge], pass, touching,
                     [&](const auto& look) { std::ranges::for_each(near, look); }),
              pass);

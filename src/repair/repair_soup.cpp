@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace transillum {
 
@@ -125,13 +126,12 @@ private:
         }
         if (pairs.empty()) return;
         const State before{soup_, report_};
+        const bool is_collapsed = collapse_where_it_helps(pairs);
+        if (pairs.empty()) return;
         std::vector<MeetingPair> left = cut(pairs);
-        if (left.size() > pairs.size()) {
-            // Edges too short for their coordinates run through each other, as around the poles
-            // of spheres: cutting them all only makes more of them.
+        if (left.size() > pairs.size() && !is_collapsed) {
             restore(before);
-            collapse_short_edges(pairs);
-            pairs = find_pairs();
+            if (collapse_short_edges(pairs)) pairs = find_pairs();
             left = cut(pairs);
         }
         State best{soup_, report_, left.size()};
@@ -166,15 +166,32 @@ private:
         report_ = state.report;
     }
 
-    void collapse_short_edges(const std::vector<MeetingPair>& pairs) {
+    /// Edges too short for their coordinates run through each other, as around the poles of
+    /// spheres: cutting them all only makes more of them, slowly. Where most pairs come of such,
+    /// they are collapsed instead.
+    bool collapse_where_it_helps(std::vector<MeetingPair>& pairs) {
+        const State before{soup_, report_};
+        if (!collapse_short_edges(pairs)) return false;
+        std::vector<MeetingPair> rest = find_pairs(pairs.size() / 2);
+        const bool helps = rest.size() <= pairs.size() / 2;
+        if (helps)
+            pairs = std::move(rest);
+        else
+            restore(before);
+        return helps;
+    }
+
+    /// \returns whether there are any
+    bool collapse_short_edges(const std::vector<MeetingPair>& pairs) {
         std::vector<bool> which(soup_.positions.size(), false);
         for (const MeetingPair& p : pairs)
             for (const std::uint32_t t : {p.a, p.b})
                 for (const std::uint32_t v : soup_.triangles[t].vertices) which[v] = true;
         const double tolerance = options_.tolerance * diagonal_;
-        told("collapsed edges shorter than the tolerance, of faces that meet",
-             join(find_close_vertices(soup_, which, tolerance)));
-        drop_faulty_faces();
+        const std::uint64_t count = join(find_short_edges(soup_, which, tolerance));
+        told("collapsed edges shorter than the tolerance, of faces that meet", count);
+        if (count > 0) drop_faulty_faces();
+        return count > 0;
     }
 
     void moved(double distance) { report_.largest_move = std::max(report_.largest_move, distance); }

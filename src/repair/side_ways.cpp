@@ -8,19 +8,21 @@ namespace transillum {
 
 namespace {
 
-constexpr std::uint32_t most_of_part = 4096;
+constexpr std::uint32_t most_of_kind = 2048;
 
+/// Fronts and backs apart, as an even stride over both would leave out one of them.
 std::vector<Side> choose_starts(const std::vector<std::uint32_t>& part) {
     std::vector<std::uint32_t> size;
-    for (const std::uint32_t p : part) {
-        if (p >= size.size()) size.resize(p + 1, 0);
-        ++size[p];
+    const auto kind = [&](Side side) { return 2 * part[side] + side % 2; };
+    for (Side side = 0; side < part.size(); ++side) {
+        if (kind(side) >= size.size()) size.resize(kind(side) + 1, 0);
+        ++size[kind(side)];
     }
     std::vector<std::uint32_t> seen(size.size(), 0);
     std::vector<Side> starts;
     for (Side side = 0; side < part.size(); ++side) {
-        const std::uint32_t stride = (size[part[side]] + most_of_part - 1) / most_of_part;
-        if (seen[part[side]]++ % stride == 0) starts.push_back(side);
+        const std::uint32_t stride = (size[kind(side)] + most_of_kind - 1) / most_of_kind;
+        if (seen[kind(side)]++ % stride == 0) starts.push_back(side);
     }
     return starts;
 }

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <set>
 #include <string>
 
 namespace transillum {
@@ -61,6 +62,61 @@ TEST_F(Check, WritesDefectsAndWaysOut) {
         EXPECT_NE(defects.find(name), std::string::npos) << name;
     EXPECT_EQ(run("-q check room.obj --leak-path way.vtp").exit_code, done);
     EXPECT_NE(read("way.vtp").find("Width"), std::string::npos);
+}
+
+TEST_F(Check, TellsAllInItsJson) {
+    write("gap.mtl", "newmtl lamp\nKe 1 1 1\n");
+    // A room of 4 units that stands open by 0.01 along an edge, and a lamp in it.
+    write("gap.obj",
+          "mtllib gap.mtl\n"
+          "v 0 0 0\nv 4 0 0\nv 4 4 0\nv 0 4 0\nv 0 0 4\nv 4 0 4\nv 4 4 4\nv 0 4 4\n"
+          "v 0 3.99 4\nv 4 3.99 4\nv 1 1 3\nv 1 3 3\nv 3 3 3\nv 3 1 3\n"
+          "o room\nf 1 2 3 4\nf 5 9 10 6\nf 1 5 6 2\nf 4 3 7 8\nf 1 4 8 9 5\nf 2 6 10 7 3\n"
+          "o lamp\nusemtl lamp\nf 11 12 13 14\n");
+    const Outcome o = run("-q check gap.obj --json --vtk out/gap.vtp --leak-path out/way.vtp");
+    EXPECT_EQ(o.exit_code, bad_input) << o.err;
+    const auto report = nlohmann::json::parse(o.out);
+    std::set<std::string> names;
+    for (const auto& [name, value] : report.items()) names.insert(name);
+    EXPECT_EQ(names,
+              (std::set<std::string>{"polygons", "triangles", "vertices", "diagonal", "thresholds",
+                                     "sound", "counts", "harmful", "objects", "components",
+                                     "thinnest_wall", "leaks_searched", "leaks"}));
+    EXPECT_EQ(report["polygons"], 7);
+    EXPECT_EQ(report["triangles"], 16);
+    EXPECT_EQ(report["vertices"], 14);
+    EXPECT_EQ(report["thresholds"].size(), 4u);
+    for (const auto& [name, count] : report["counts"].items())
+        EXPECT_EQ(count, name == "border-edge" ? 8 : name == "leak" ? 1 : 0) << name;
+    for (const auto& name : report["harmful"]) EXPECT_TRUE(report["counts"].contains(name));
+    ASSERT_EQ(report["components"].size(), 2u);
+    const auto& room = report["components"][0];
+    EXPECT_EQ(room["faces"], 14);
+    EXPECT_EQ(room["object"], 0);
+    EXPECT_FALSE(room["closed"].get<bool>());
+    EXPECT_TRUE(room["orientable"].get<bool>());
+    EXPECT_EQ(room["volume"], 0.0);
+    EXPECT_EQ(room["borders"], 1);
+    ASSERT_EQ(report["objects"].size(), 2u);
+    EXPECT_EQ(report["objects"][1]["name"], "lamp");
+    EXPECT_EQ(report["objects"][1]["triangles"], 2);
+    ASSERT_EQ(report["leaks"].size(), 1u);
+    const auto& leak = report["leaks"][0];
+    EXPECT_EQ(leak["from"], "luminaire 'lamp'");
+    EXPECT_NEAR(leak["width"].get<double>(), 0.01, 1e-9);
+    EXPECT_FALSE(leak["opening"].get<bool>());
+    EXPECT_GE(leak["path"].size(), 2u);
+    EXPECT_GT(leak["length"], 0.0);
+    EXPECT_EQ(listing("out"), (std::set<std::string>{"gap.vtp", "way.vtp"}));
+}
+
+TEST_F(Check, WritesFilesWhereThereIsNothingToo) {
+    write_room("0.5", "1");
+    const Outcome o =
+        run("-q check room.obj --no-leaks --vtk out/none.vtp --leak-path out/way.vtp");
+    EXPECT_EQ(o.exit_code, done) << o.err;
+    EXPECT_NE(o.out.find("leaks: not searched"), std::string::npos) << o.out;
+    EXPECT_EQ(listing("out"), (std::set<std::string>{"none.vtp", "way.vtp"}));
 }
 
 TEST_F(Check, RefusesWhatItCannotUse) {

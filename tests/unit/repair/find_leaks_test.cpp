@@ -120,6 +120,34 @@ TEST_P(Leaks, AreAsWideAsTheHole) {
     }
 }
 
+// However few straight ways are tried of how many.
+TEST_P(Leaks, AreFoundWhereOneOfManySquaresIsMissing) {
+    constexpr int n = 32;
+    constexpr double size = 4.0 / n;
+    for (const bool inwards : {false, true}) {
+        made = PlacedScene(GetParam());
+        for (int axis = 0; axis < 3; ++axis)
+            for (const bool high : {false, true})
+                for (int i = 0; i < n; ++i)
+                    for (int j = 0; j < n; ++j) {
+                        if (axis == 1 && high && i == 5 && j == 20) continue;
+                        std::vector<glm::dvec3> outline(4, glm::dvec3(high ? 4 : 0));
+                        for (int c = 0; c < 4; ++c) {
+                            outline[c][(axis + 1) % 3] = size * (i + (c == 1 || c == 2 ? 1 : 0));
+                            outline[c][(axis + 2) % 3] = size * (j + (c >= 2 ? 1 : 0));
+                        }
+                        if (high == inwards) std::ranges::reverse(outline);
+                        made.polygon(outline);
+                    }
+        add_lamp();
+        const CheckReport report = check(made.scene, 0.05);
+        ASSERT_EQ(report.leaks.size(), 1u);
+        EXPECT_NEAR(report.leaks[0].width, size * GetParam().scale, 1e-6 * GetParam().scale);
+        EXPECT_FALSE(report.leaks[0].is_opening);
+        expect_way(report.leaks[0], made.scene);
+    }
+}
+
 TEST_P(Leaks, AreFoundUnderALidThatLiesOpenByAHair) {
     constexpr double slit = 0x1p-30;      // 1e-9
     constexpr double rounding = 0x1p-38;  // a few units in the last place, far away

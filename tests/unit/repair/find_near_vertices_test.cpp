@@ -54,7 +54,33 @@ TEST_P(NearVertices, JoinInChainsOnlyAsFarAsTheTolerance) {
     for (std::uint32_t i = 0; i < 8; ++i) EXPECT_EQ(taken[3 * i], 3 * (i - i % 3));
 }
 
+using ShortEdges = testing_support::Placed;
+
+// A fan whose rim runs in steps of a gap: they join in turn, as far as the tolerance.
+TEST_P(ShortEdges, AreCollapsedOneByOne) {
+    const std::uint32_t tip = made.vertex({0, 1, 0});
+    for (int i = 0; i < 8; ++i) made.vertex({i * gap, 0, 0});
+    for (std::uint32_t i = 1; i < 8; ++i) made.face({tip, i, i + 1});
+    const TriangleSoup soup = make_soup(made.scene);
+    const std::vector<bool> all(9, true);
+    const double tolerance = 2.5 * gap * GetParam().scale;
+    EXPECT_EQ(find_short_edges(soup, all, tolerance), (Indices{0, 1, 1, 1, 4, 4, 4, 7, 7}));
+    EXPECT_EQ(find_short_edges(soup, all, 0.0), all_of(9));
+    std::vector<bool> some(9, false);
+    some[5] = some[6] = some[8] = true;
+    EXPECT_EQ(find_short_edges(soup, some, tolerance), (Indices{0, 1, 2, 3, 4, 5, 5, 7, 8}));
+}
+
+TEST_P(ShortEdges, AreNotAcrossCracks) {
+    made.polygon({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+    made.polygon({{gap, 0, 0}, {1, -1, 0}, {1 + gap, 0, 0}});
+    const TriangleSoup soup = make_soup(made.scene);
+    EXPECT_EQ(find_short_edges(soup, std::vector<bool>(6, true), 2 * gap * GetParam().scale),
+              all_of(6));
+}
+
 TRANSILLUM_AT_ALL_PLACES(NearVertices);
+TRANSILLUM_AT_ALL_PLACES(ShortEdges);
 
 }  // namespace
 }  // namespace transillum
