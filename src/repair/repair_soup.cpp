@@ -45,6 +45,8 @@ public:
         drop_faulty_faces();
         if (soup_.triangles.empty()) return;
         if (options_.level == RepairLevel::full) {
+            // Faces that pass each other within the tolerance would be cut into slivers.
+            if (options_.close_cracks) close_cracks();
             meet_in_edges();
             // What is cut may leave vertices close to others again.
             for (int i = 0; i < 3 && options_.close_cracks && report_.pairs_left == 0; ++i)
@@ -138,7 +140,8 @@ private:
         double spacing = coarse_spacing();
         std::size_t last = pairs.size();
         for (int round = 1; round < options_.rounds && !left.empty(); ++round) {
-            if (monitor_.stop_requested()) break;
+            const bool diverges = left.size() > 4 * pairs.size() + 1000;
+            if (diverges || monitor_.stop_requested()) break;
             if (2 * left.size() > last) {
                 // Rounding makes as many as cutting mends: their vertices are too close.
                 moved(coarsen(soup_, left, spacing));
