@@ -1,12 +1,12 @@
 #include <transillum/repair/check_scene.h>
 
-#include "repair/check_edges.h"
-#include "repair/find_components.h"
-#include "repair/find_defects.h"
-#include "repair/find_intersections.h"
-#include "repair/find_leaks.h"
-#include "repair/find_thin_walls.h"
-#include "repair/leak_sources.h"
+#include "repair/defects/check_edges.h"
+#include "repair/defects/find_components.h"
+#include "repair/defects/find_defects.h"
+#include "repair/defects/find_thin_walls.h"
+#include "repair/exact/find_intersections.h"
+#include "repair/leaks/find_leaks.h"
+#include "repair/leaks/leak_sources.h"
 #include "repair/repair_soup.h"
 
 #include <transillum/base/error.h>

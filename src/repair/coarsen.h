@@ -1,7 +1,7 @@
 /// Moves vertices that are too close for their coordinates.
 #pragma once
 
-#include "repair/find_intersections.h"
+#include "repair/exact/find_intersections.h"
 
 namespace transillum {
 

@@ -1,8 +1,8 @@
 #include <transillum/base/error.h>
 #include <transillum/repair/triangle_soup.h>
 
+#include "repair/exact/predicates.h"
 #include "repair/position_hash.h"
-#include "repair/predicates.h"
 #include "repair/triangulate.h"
 #include "repair/used_positions.h"
 

@@ -1,8 +1,8 @@
 #include "repair/repair_soup.h"
 
 #include "repair/coarsen.h"
-#include "repair/find_defects.h"
-#include "repair/resolve_intersections.h"
+#include "repair/defects/find_defects.h"
+#include "repair/exact/resolve_intersections.h"
 #include "repair/split_t_junctions.h"
 
 #include <glm/common.hpp>
@@ -247,6 +247,13 @@ private:
         return false;
     }
 
+    [[nodiscard]] double distance_from_edge(const TJunction& j) const {
+        const auto& v = soup_.triangles[j.triangle].vertices;
+        const glm::dvec3 at =
+            glm::mix(soup_.positions[v[j.edge]], soup_.positions[v[(j.edge + 1) % 3]], j.parameter);
+        return glm::length(soup_.positions[j.vertex] - at);
+    }
+
     /// Joins near vertices, and edges to vertices that lie on them.
     bool close_cracks() {
         const double tolerance = options_.tolerance * diagonal_;
@@ -257,11 +264,11 @@ private:
         for (int edge = 0; edge < 3; ++edge) {
             const std::vector<TJunction> junctions = find_t_junctions(soup_, tolerance);
             if (junctions.empty()) break;
+            for (const TJunction& j : junctions) moved(distance_from_edge(j));
             joined += split_t_junctions(soup_, junctions);
             drop_faulty_faces();
         }
         told("joined edges to vertices on them", joined);
-        if (joined > 0) moved(tolerance);
         return near + joined > 0;
     }
 

@@ -1,7 +1,7 @@
 /// Makes edges pass through the vertices that lie on them.
 #pragma once
 
-#include "repair/find_defects.h"
+#include "repair/defects/find_defects.h"
 
 namespace transillum {
 

@@ -1,5 +1,5 @@
 // Pairs of triangles, against exact intersections of another kind (CGAL's constructions).
-#include "repair/find_intersections.h"
+#include "repair/exact/find_intersections.h"
 
 #include "unit/repair/random_soups.h"
 

@@ -1,7 +1,7 @@
 #include <transillum/repair/check_scene.h>
 
-#include "repair/find_leaks.h"
-#include "repair/side_graph.h"
+#include "repair/leaks/find_leaks.h"
+#include "repair/leaks/side_graph.h"
 #include "unit/repair/placed_scene.h"
 
 #include <glm/geometric.hpp>

@@ -1,4 +1,4 @@
-#include "repair/find_defects.h"
+#include "repair/defects/find_defects.h"
 #include "unit/repair/placed_scene.h"
 
 namespace transillum {

@@ -1,8 +1,8 @@
 // What a repair leaves: nothing that meets, the same surface, and what was not touched untouched.
 #include <transillum/repair/repair_scene.h>
 
-#include "repair/find_defects.h"
-#include "repair/find_intersections.h"
+#include "repair/defects/find_defects.h"
+#include "repair/exact/find_intersections.h"
 #include "support/scene_builder.h"
 #include "unit/repair/random_soups.h"
 

@@ -1,6 +1,6 @@
-#include "repair/find_components.h"
-#include "repair/find_defects.h"
-#include "repair/measure_shell.h"
+#include "repair/defects/find_components.h"
+#include "repair/defects/find_defects.h"
+#include "repair/defects/measure_shell.h"
 #include "unit/repair/random_soups.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
