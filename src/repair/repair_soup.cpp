@@ -2,6 +2,7 @@
 
 #include "repair/coarsen.h"
 #include "repair/defects/find_defects.h"
+#include "repair/exact/flatten.h"
 #include "repair/exact/resolve_intersections.h"
 #include "repair/split_t_junctions.h"
 
@@ -113,14 +114,22 @@ private:
         return closed > 0;
     }
 
+    /// Before the first cut: what overlaps but for rounding is to overlap exactly.
+    std::vector<MeetingPair> look(std::size_t most = SIZE_MAX) {
+        flat_ = flatten(soup_, options_.tolerance * diagonal_);
+        std::vector<MeetingPair> pairs = find_pairs(most);
+        if (pairs.empty()) flat_ = {};
+        return pairs;
+    }
+
     std::vector<MeetingPair> find_pairs(std::size_t most = SIZE_MAX) {
         monitor_.progress({.phase = "intersections"});
-        return find_intersections(soup_, workers_, most);
+        return find_intersections(soup_, workers_, most, &flat_);
     }
 
     /// Until triangles meet in whole vertices and edges only.
     void meet_in_edges() {
-        std::vector<MeetingPair> pairs = find_pairs();
+        std::vector<MeetingPair> pairs = look();
         if (first_look_) {
             for (const MeetingPair& p : pairs)
                 ++(p.kind == Meeting::overlap ? report_.coplanar_pairs : report_.crossing_pairs);
@@ -133,7 +142,8 @@ private:
         std::vector<MeetingPair> left = cut(pairs);
         if (left.size() > pairs.size() && !is_collapsed) {
             restore(before);
-            if (collapse_short_edges(pairs)) pairs = find_pairs();
+            collapse_short_edges(pairs);
+            pairs = look();
             left = cut(pairs);
         }
         State best{soup_, report_, left.size()};
@@ -175,12 +185,14 @@ private:
     bool collapse_where_it_helps(std::vector<MeetingPair>& pairs) {
         const State before{soup_, report_};
         if (!collapse_short_edges(pairs)) return false;
-        std::vector<MeetingPair> rest = find_pairs(pairs.size() / 2);
+        std::vector<MeetingPair> rest = look(pairs.size() / 2);
         const bool helps = rest.size() <= pairs.size() / 2;
         if (helps)
             pairs = std::move(rest);
-        else
+        else {
             restore(before);
+            pairs = look();
+        }
         return helps;
     }
 
@@ -213,7 +225,10 @@ private:
 
     /// \returns what meets after rounding
     std::vector<MeetingPair> cut(const std::vector<MeetingPair>& pairs) {
-        const Resolution done = resolve_intersections(soup_, pairs, rounding_, workers_, monitor_);
+        const Resolution done =
+            resolve_intersections(soup_, pairs, flat_, rounding_, workers_, monitor_);
+        moved(flat_.furthest);
+        flat_ = {};
         ++report_.rounds;
         report_.faces_cut += done.faces_cut;
         report_.faces_made += done.faces_made;
@@ -300,6 +315,7 @@ private:
     Monitor& monitor_;
     RepairReport& report_;
     double diagonal_;
+    FlatVertices flat_;
     bool first_look_ = true;
 };
 

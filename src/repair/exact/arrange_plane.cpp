@@ -88,8 +88,7 @@ public:
 private:
     Projection plane_of(const TriangleSoup& soup, std::uint32_t triangle) const {
         const auto& v = soup.triangles[triangle].vertices;
-        return {exact_point(soup.positions[v[0]]), exact_point(soup.positions[v[1]]),
-                exact_point(soup.positions[v[2]])};
+        return {points_[v[0]], points_[v[1]], points_[v[2]]};
     }
 
     Vertex insert(std::uint32_t number) {

@@ -29,11 +29,10 @@ glm::dvec3 nearest_doubles(const Exact::Point_3& p) {
     return {nearest_double(p.x()), nearest_double(p.y()), nearest_double(p.z())};
 }
 
-ExactPoints::ExactPoints(const TriangleSoup& soup)
-    : soup_(soup), vertex_count_(static_cast<std::uint32_t>(soup.positions.size())) {
+ExactPoints::ExactPoints(const TriangleSoup& soup, const FlatVertices& flat)
+    : soup_(soup), flat_(flat), vertex_count_(static_cast<std::uint32_t>(soup.positions.size())) {
     numbers_.reserve(soup.positions.size());
-    for (std::uint32_t i = 0; i < soup.positions.size(); ++i)
-        numbers_.emplace(soup.positions[i], i);
+    for (std::uint32_t i = 0; i < soup.positions.size(); ++i) numbers_.emplace(nearest(i), i);
 }
 
 std::vector<std::uint32_t> ExactPoints::add(const std::vector<Exact::Point_3>& points,

@@ -2,23 +2,16 @@
 /// equal numbers.
 #pragma once
 
+#include "repair/exact/flatten.h"
 #include "repair/position_hash.h"
 
 #include <transillum/base/parallel.h>
 #include <transillum/repair/snap_grid.h>
 #include <transillum/repair/triangle_soup.h>
 
-#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
-
 #include <unordered_map>
 
 namespace transillum {
-
-using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
-
-[[nodiscard]] inline Exact::Point_3 exact_point(const glm::dvec3& p) {
-    return {p.x, p.y, p.z};
-}
 
 /// The double nearest to each coordinate; the upper of two.
 [[nodiscard]] glm::dvec3 nearest_doubles(const Exact::Point_3& p);
@@ -26,15 +19,22 @@ using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
 /// The first numbers are the vertices of a soup; what is added follows.
 class ExactPoints {
 public:
-    explicit ExactPoints(const TriangleSoup& soup);
+    ExactPoints(const TriangleSoup& soup, const FlatVertices& flat);
 
     [[nodiscard]] Exact::Point_3 operator[](std::uint32_t number) const {
-        return number < vertex_count() ? exact_point(soup_.positions[number])
-                                       : added_[number - vertex_count()];
+        if (number >= vertex_count()) return added_[number - vertex_count()];
+        const auto moved = flat_.positions.find(number);
+        return moved != flat_.positions.end() ? moved->second
+                                              : exact_point(soup_.positions[number]);
+    }
+    [[nodiscard]] bool is_flat(std::uint32_t number) const {
+        return flat_.positions.contains(number);
     }
     [[nodiscard]] glm::dvec3 nearest(std::uint32_t number) const {
-        return number < vertex_count() ? soup_.positions[number]
-                                       : nearest_[number - vertex_count()];
+        if (number >= vertex_count()) return nearest_[number - vertex_count()];
+        const auto moved = flat_.positions.find(number);
+        return moved != flat_.positions.end() ? nearest_doubles(moved->second)
+                                              : soup_.positions[number];
     }
     [[nodiscard]] std::uint32_t vertex_count() const { return vertex_count_; }
     [[nodiscard]] std::uint32_t count() const {
@@ -48,6 +48,7 @@ private:
     std::uint32_t add(const Exact::Point_3& point, const glm::dvec3& nearest);
 
     const TriangleSoup& soup_;
+    const FlatVertices& flat_;
     std::uint32_t vertex_count_ = 0;  ///< of the soup, which may grow afterwards
     std::vector<Exact::Point_3> added_;
     std::vector<glm::dvec3> nearest_;

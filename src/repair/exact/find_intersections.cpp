@@ -1,5 +1,6 @@
 #include "repair/exact/find_intersections.h"
 
+#include "repair/exact/flatten.h"
 #include "repair/exact/triangle_meeting.h"
 
 #include <CGAL/Box_intersection_d/Box_with_info_d.h>
@@ -17,14 +18,16 @@ using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::uint32_t>;
 /// Candidates that are looked at together: bounds the memory of meshes with many neighbours.
 constexpr std::size_t batch = 1u << 20;
 
-std::vector<Box> boxes_of(const TriangleSoup& soup) {
+std::vector<Box> boxes_of(const TriangleSoup& soup, const FlatVertices* flat) {
+    const double moved = flat ? 2.0 * flat->furthest : 0.0;
     std::vector<Box> boxes;
     boxes.reserve(soup.triangles.size());
     for (std::uint32_t i = 0; i < soup.triangles.size(); ++i) {
         const auto& v = soup.triangles[i].vertices;
         const glm::dvec3 &a = soup.positions[v[0]], &b = soup.positions[v[1]],
                          &c = soup.positions[v[2]];
-        const glm::dvec3 low = glm::min(a, glm::min(b, c)), high = glm::max(a, glm::max(b, c));
+        const glm::dvec3 low = glm::min(a, glm::min(b, c)) - moved;
+        const glm::dvec3 high = glm::max(a, glm::max(b, c)) + moved;
         boxes.emplace_back(CGAL::Bbox_3(low.x, low.y, low.z, high.x, high.y, high.z), i);
     }
     return boxes;
@@ -32,13 +35,13 @@ std::vector<Box> boxes_of(const TriangleSoup& soup) {
 
 using Candidates = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
-void classify(const TriangleSoup& soup, const Candidates& candidates, const Workers& workers,
-              std::vector<MeetingPair>& pairs) {
+void classify(const TriangleSoup& soup, const FlatVertices* flat, const Candidates& candidates,
+              const Workers& workers, std::vector<MeetingPair>& pairs) {
     std::vector<std::vector<MeetingPair>> found(static_cast<std::size_t>(workers.count()));
     workers.for_ranges(candidates.size(), 4096, [&](std::size_t begin, std::size_t end, int w) {
         for (std::size_t i = begin; i < end; ++i) {
             const auto [a, b] = std::minmax(candidates[i].first, candidates[i].second);
-            if (const auto meeting = meet(soup, a, b))
+            if (const auto meeting = meet(soup, a, b, flat))
                 found[static_cast<std::size_t>(w)].push_back({a, b, meeting->kind});
         }
     });
@@ -48,12 +51,12 @@ void classify(const TriangleSoup& soup, const Candidates& candidates, const Work
 }  // namespace
 
 std::vector<MeetingPair> find_intersections(const TriangleSoup& soup, const Workers& workers,
-                                            std::size_t most) {
-    std::vector<Box> boxes = boxes_of(soup);
+                                            std::size_t most, const FlatVertices* flat) {
+    std::vector<Box> boxes = boxes_of(soup, flat);
     std::vector<MeetingPair> pairs;
     Candidates candidates;
     const auto flush = [&] {
-        classify(soup, candidates, workers, pairs);
+        classify(soup, flat, candidates, workers, pairs);
         candidates.clear();
     };
     struct TooMany {};

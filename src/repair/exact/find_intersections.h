@@ -22,10 +22,13 @@ struct MeetingPair {
     bool operator==(const MeetingPair&) const = default;
 };
 
+struct FlatVertices;
+
 /// All of them, by a and b; where there are more than `most`, some that are. \pre the soup has no
-/// triangle without area, and no two on the same three vertices.
+/// triangle without area. \param flat see flatten.h; null: none
 [[nodiscard]] std::vector<MeetingPair> find_intersections(const TriangleSoup& soup,
                                                           const Workers& workers,
-                                                          std::size_t most = SIZE_MAX);
+                                                          std::size_t most = SIZE_MAX,
+                                                          const FlatVertices* flat = nullptr);
 
 }  // namespace transillum

@@ -23,13 +23,13 @@ struct Met {
 };
 
 std::vector<Met> meet_again(const TriangleSoup& soup, const std::vector<MeetingPair>& pairs,
-                            const Workers& workers) {
+                            const FlatVertices& flat, const Workers& workers) {
     std::vector<Met> met(pairs.size());
     workers.for_ranges(pairs.size(), 256, [&](std::size_t begin, std::size_t end, int) {
         for (std::size_t i = begin; i < end; ++i) {
             met[i].a = pairs[i].a;
             met[i].b = pairs[i].b;
-            if (auto meeting = meet(soup, pairs[i].a, pairs[i].b))
+            if (auto meeting = meet(soup, pairs[i].a, pairs[i].b, &flat))
                 met[i].points = std::move(meeting->points);
         }
     });
@@ -49,7 +49,7 @@ public:
         keys_.erase(same.begin(), same.end());
         std::vector<Exact::Point_3> made(keys_.size());
         workers.for_ranges(keys_.size(), 64, [&](std::size_t begin, std::size_t end, int) {
-            for (std::size_t i = begin; i < end; ++i) made[i] = construct(soup, keys_[i]);
+            for (std::size_t i = begin; i < end; ++i) made[i] = construct(soup, points, keys_[i]);
         });
         numbers_ = points.add(made, workers);
     }
@@ -63,11 +63,11 @@ private:
     static std::tuple<std::uint32_t, std::uint32_t, std::uint32_t> key(const MeetingPoint& p) {
         return {p.u, p.v, p.face};
     }
-    static Exact::Point_3 construct(const TriangleSoup& soup, const MeetingPoint& p) {
-        const auto at = [&](std::uint32_t v) { return exact_point(soup.positions[v]); };
+    static Exact::Point_3 construct(const TriangleSoup& soup, const ExactPoints& at,
+                                    const MeetingPoint& p) {
         const Corners& face = soup.triangles[p.face].vertices;
         return Exact().construct_plane_line_intersection_point_3_object()(
-            at(face[0]), at(face[1]), at(face[2]), at(p.u), at(p.v));
+            at[face[0]], at[face[1]], at[face[2]], at[p.u], at[p.v]);
     }
 
     std::vector<MeetingPoint> keys_;
@@ -156,9 +156,11 @@ std::vector<std::uint32_t> round_points(const ExactPoints& points, const VertexR
     std::unordered_map<glm::dvec3, std::uint32_t, PositionHash> vertex_at;
     vertex_at.reserve(soup.positions.size());
     const std::uint32_t before = points.vertex_count();
-    for (std::uint32_t i = 0; i < before; ++i) vertex_at.emplace(soup.positions[i], i);
     std::vector<std::uint32_t> vertex_of(points.count());
-    std::iota(vertex_of.begin(), vertex_of.begin() + before, 0u);
+    for (std::uint32_t i = 0; i < before; ++i) {
+        if (points.is_flat(i)) soup.positions[i] = round_to(points.nearest(i));
+        vertex_of[i] = vertex_at.emplace(soup.positions[i], i).first->second;
+    }
     std::vector<glm::dvec3> made;
     for (std::uint32_t i = before; i < points.count(); ++i) {
         const glm::dvec3 p = round_to(points.nearest(i));
@@ -176,7 +178,10 @@ bool is_whole(const Corners& triangle, const Corners& part) {
 }
 
 /// Puts parts in the place of what they are parts of.
-void replace(TriangleSoup& soup, const std::vector<PlanePart>& parts, Resolution& resolution) {
+void replace(TriangleSoup& soup, const std::vector<PlanePart>& parts,
+             const std::vector<std::uint32_t>& vertex_of, Resolution& resolution) {
+    for (SoupTriangle& t : soup.triangles)
+        for (std::uint32_t& v : t.vertices) v = vertex_of[v];
     std::vector<SoupTriangle> triangles;
     std::vector<std::array<glm::vec2, 3>> uvs;
     auto part = parts.begin();
@@ -211,10 +216,10 @@ void replace(TriangleSoup& soup, const std::vector<PlanePart>& parts, Resolution
 }  // namespace
 
 Resolution resolve_intersections(TriangleSoup& soup, const std::vector<MeetingPair>& pairs,
-                                 const VertexRounding& round_to, const Workers& workers,
-                                 Monitor& monitor) {
-    ExactPoints points(soup);
-    const std::vector<Met> met = meet_again(soup, pairs, workers);
+                                 const FlatVertices& flat, const VertexRounding& round_to,
+                                 const Workers& workers, Monitor& monitor) {
+    ExactPoints points(soup, flat);
+    const std::vector<Met> met = meet_again(soup, pairs, flat, workers);
     const Crossings crossings(soup, met, points, workers);
     const std::vector<PlaneInput> planes = gather_planes(soup, pairs, met, crossings, points);
     std::vector<PlaneParts> arranged(planes.size());
@@ -243,7 +248,7 @@ Resolution resolve_intersections(TriangleSoup& soup, const std::vector<MeetingPa
     std::ranges::stable_sort(parts, {}, &PlanePart::member);
     Resolution resolution;
     resolution.vertices_made = soup.positions.size() - points.vertex_count();
-    replace(soup, parts, resolution);
+    replace(soup, parts, vertex_of, resolution);
     return resolution;
 }
 

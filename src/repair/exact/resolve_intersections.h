@@ -17,9 +17,9 @@ struct Resolution {
 /// plane are cut alike (their common parts end up on the same vertices), and neighbours are cut
 /// alike along their edge. Its new vertices are then rounded, once. \param round_to what a
 /// coordinate may be; rounding may move vertices across faces, so look again.
-/// \pre no triangle without area, no two alike
+/// \param flat see flatten.h: what the pairs were found with \pre no triangle without area
 Resolution resolve_intersections(TriangleSoup& soup, const std::vector<MeetingPair>& pairs,
-                                 const VertexRounding& round_to, const Workers& workers,
-                                 Monitor& monitor);
+                                 const FlatVertices& flat, const VertexRounding& round_to,
+                                 const Workers& workers, Monitor& monitor);
 
 }  // namespace transillum

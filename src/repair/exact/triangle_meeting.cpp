@@ -1,5 +1,7 @@
 #include "repair/exact/triangle_meeting.h"
 
+#include "repair/exact/flatten.h"
+
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
 #include <glm/geometric.hpp>
@@ -18,11 +20,15 @@ using Signs = std::array<int, 3>;
 /// Predicates on vertices of a soup.
 class Predicates {
 public:
-    explicit Predicates(const TriangleSoup& soup) : positions_(soup.positions.data()) {}
+    Predicates(const TriangleSoup& soup, const FlatVertices* flat)
+        : positions_(soup.positions.data()),
+          flat_(flat && !flat->positions.empty() ? &flat->positions : nullptr) {}
 
     /// On which side of the plane (a, b, c) is d?
     [[nodiscard]] int side(std::uint32_t a, std::uint32_t b, std::uint32_t c,
                            std::uint32_t d) const {
+        if (is_flat({a, b, c, d}))
+            return CGAL::orientation(exactly(a), exactly(b), exactly(c), exactly(d));
         return CGAL::orientation(at(a), at(b), at(c), at(d));
     }
     [[nodiscard]] Signs sides(const Corners& plane, const Corners& of) const {
@@ -32,14 +38,38 @@ public:
                 signs[i] = side(plane[0], plane[1], plane[2], of[i]);
         return signs;
     }
+    /// How do three points turn, seen along a coordinate?
+    [[nodiscard]] int turn(int drop, std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
+        const int x = drop == 0 ? 1 : 0, y = drop == 2 ? 1 : 2;
+        if (is_flat({a, b, c})) {
+            const auto seen = [&](std::uint32_t v) {
+                const Exact::Point_3 p = exactly(v);
+                return Exact::Point_2(p[x], p[y]);
+            };
+            return CGAL::orientation(seen(a), seen(b), seen(c));
+        }
+        const auto seen = [&](std::uint32_t v) {
+            return Kernel::Point_2(positions_[v][x], positions_[v][y]);
+        };
+        return CGAL::orientation(seen(a), seen(b), seen(c));
+    }
     [[nodiscard]] glm::dvec3 position(std::uint32_t v) const { return positions_[v]; }
 
 private:
+    [[nodiscard]] bool is_flat(std::initializer_list<std::uint32_t> vertices) const {
+        return flat_ &&
+               std::ranges::any_of(vertices, [&](std::uint32_t v) { return flat_->contains(v); });
+    }
+    [[nodiscard]] Exact::Point_3 exactly(std::uint32_t v) const {
+        const auto moved = flat_->find(v);
+        return moved != flat_->end() ? moved->second : exact_point(positions_[v]);
+    }
     [[nodiscard]] Kernel::Point_3 at(std::uint32_t v) const {
         const glm::dvec3& p = positions_[v];
         return {p.x, p.y, p.z};
     }
     const glm::dvec3* positions_;
+    const std::unordered_map<std::uint32_t, Exact::Point_3>* flat_;
 };
 
 /// Turning senses in the plane of a triangle, seen along the coordinate that it faces most.
@@ -55,7 +85,7 @@ public:
         sense_ = turn(t[0], t[1], t[2]);
     }
     [[nodiscard]] int turn(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
-        return CGAL::orientation(at(a), at(b), at(c));
+        return predicates_.turn(drop_, a, b, c);
     }
     /// Is a point of the plane in the triangle, borders included?
     [[nodiscard]] bool holds(const Corners& t, std::uint32_t p) const {
@@ -76,10 +106,6 @@ public:
     }
 
 private:
-    [[nodiscard]] Kernel::Point_2 at(std::uint32_t v) const {
-        const glm::dvec3 p = predicates_.position(v);
-        return {drop_ == 0 ? p.y : p.x, drop_ == 2 ? p.y : p.z};
-    }
     const Predicates& predicates_;
     int drop_ = 2;
     int sense_ = 0;
@@ -143,13 +169,14 @@ bool is_clear(const Signs& signs, int shared) {
 
 }  // namespace
 
-std::optional<TriangleMeeting> meet(const TriangleSoup& soup, std::uint32_t a, std::uint32_t b) {
+std::optional<TriangleMeeting> meet(const TriangleSoup& soup, std::uint32_t a, std::uint32_t b,
+                                    const FlatVertices* flat) {
     const Corners& ta = soup.triangles[a].vertices;
     const Corners& tb = soup.triangles[b].vertices;
     const auto shared = static_cast<int>(
         std::ranges::count_if(tb, [&](std::uint32_t v) { return is_shared(ta, v); }));
     if (shared == 3) return std::nullopt;
-    const Predicates predicates(soup);
+    const Predicates predicates(soup, flat);
     const Signs signs_b = predicates.sides(ta, tb);
     if (is_clear(signs_b, shared)) return std::nullopt;
     if (signs_b == Signs{0, 0, 0}) return meet_in_plane(predicates, ta, tb);

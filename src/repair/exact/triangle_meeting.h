@@ -1,4 +1,5 @@
-/// How two triangles meet, by exact predicates on their coordinates (CGAL, filtered).
+/// How two triangles meet, by exact predicates on their coordinates (CGAL, filtered); on exact
+/// coordinates where vertices are flattened.
 #pragma once
 
 #include "repair/exact/find_intersections.h"
@@ -29,6 +30,7 @@ struct TriangleMeeting {
 
 /// Empty where they don't meet, or only in shared vertices and edges. \pre as find_intersections
 [[nodiscard]] std::optional<TriangleMeeting> meet(const TriangleSoup& soup, std::uint32_t a,
-                                                  std::uint32_t b);
+                                                  std::uint32_t b,
+                                                  const FlatVertices* flat = nullptr);
 
 }  // namespace transillum
