@@ -37,10 +37,31 @@ public:
         FlatVertices flat;
         if (pairs_.empty()) return flat;
         for (const auto& [vertex, planes] : planes_of_vertices()) move(vertex, planes, flat);
+        while (keep_areas(flat)) {
+        }
         return flat;
     }
 
 private:
+    /// Small triangles may lose their area, or turn over: they stay as they are. \returns whether
+    /// there were any
+    [[nodiscard]] bool keep_areas(FlatVertices& flat) const {
+        bool any = false;
+        for (std::uint32_t t = 0; t < soup_.triangles.size(); ++t) {
+            const auto& v = soup_.triangles[t].vertices;
+            const auto is_flat = [&](std::uint32_t i) { return flat.positions.contains(i); };
+            if (std::ranges::none_of(v, is_flat)) continue;
+            std::array<Exact::Point_3, 3> p;
+            for (int i = 0; i < 3; ++i)
+                p[i] = is_flat(v[i]) ? flat.positions.at(v[i]) : exact_point(soup_.positions[v[i]]);
+            const Exact::Vector_3 normal = CGAL::cross_product(p[1] - p[0], p[2] - p[0]);
+            const glm::dvec3 before = normals_[t];
+            if (normal * Exact::Vector_3(before.x, before.y, before.z) > 0) continue;
+            for (const std::uint32_t i : v) any |= flat.positions.erase(i) > 0;
+        }
+        return any;
+    }
+
     [[nodiscard]] Triangle corners(std::uint32_t t) const {
         const auto& v = soup_.triangles[t].vertices;
         return {soup_.positions[v[0]], soup_.positions[v[1]], soup_.positions[v[2]]};
@@ -57,7 +78,31 @@ private:
         CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box& a, const Box& b) {
             if (overlap(a.info(), b.info())) pairs_.emplace_back(a.info(), b.info());
         });
-        for (const auto& [a, b] : pairs_) clusters_.join(a, b);
+        for (const auto& [a, b] : pairs_) {
+            clusters_.join(a, b);
+            members_.push_back(a);
+            members_.push_back(b);
+        }
+        std::ranges::sort(members_);
+        members_.erase(std::ranges::unique(members_).begin(), members_.end());
+        join_neighbours();
+    }
+
+    /// Of triangles that share a vertex and a plane, both overlapping others, the vertex can't be
+    /// in two planes that are almost the same.
+    void join_neighbours() {
+        std::map<std::uint32_t, std::vector<std::uint32_t>> at_vertex;
+        for (const std::uint32_t t : members_)
+            for (const std::uint32_t v : soup_.triangles[t].vertices) {
+                for (const std::uint32_t other : at_vertex[v])
+                    if (share_plane(t, other)) clusters_.join(t, other);
+                at_vertex[v].push_back(t);
+            }
+    }
+
+    [[nodiscard]] bool share_plane(std::uint32_t a, std::uint32_t b) const {
+        return std::abs(glm::dot(normals_[a], normals_[b])) >= 0.5 &&
+               is_in_plane_of(corners(a), b) && is_in_plane_of(corners(b), a);
     }
 
     [[nodiscard]] bool is_in_plane_of(const Triangle& t, std::uint32_t of) const {
@@ -81,29 +126,20 @@ private:
     }
 
     [[nodiscard]] bool overlap(std::uint32_t a, std::uint32_t b) const {
-        if (std::abs(glm::dot(normals_[a], normals_[b])) < 0.5) return false;
-        const Triangle ta = corners(a), tb = corners(b);
-        return is_in_plane_of(ta, b) && is_in_plane_of(tb, a) && !separates(ta, normals_[a], tb) &&
-               !separates(tb, normals_[b], ta);
+        return share_plane(a, b) && !separates(corners(a), normals_[a], corners(b)) &&
+               !separates(corners(b), normals_[b], corners(a));
     }
 
     /// Of every vertex of what overlaps, the triangles that stand for its planes.
     std::map<std::uint32_t, std::vector<std::uint32_t>> planes_of_vertices() {
         std::map<std::uint32_t, std::uint32_t> largest;
         const auto area = [&](std::uint32_t t) { return glm::length(area_vector(soup_, t)); };
-        std::vector<std::uint32_t> members;
-        for (const auto& [a, b] : pairs_) {
-            members.push_back(a);
-            members.push_back(b);
-        }
-        std::ranges::sort(members);
-        members.erase(std::ranges::unique(members).begin(), members.end());
-        for (const std::uint32_t t : members) {
+        for (const std::uint32_t t : members_) {
             const auto at = largest.try_emplace(clusters_.find(t), t).first;
             if (area(t) > area(at->second)) at->second = t;
         }
         std::map<std::uint32_t, std::vector<std::uint32_t>> planes;
-        for (const std::uint32_t t : members)
+        for (const std::uint32_t t : members_)
             for (const std::uint32_t v : soup_.triangles[t].vertices) {
                 const std::uint32_t plane = largest.at(clusters_.find(t));
                 if (std::ranges::count(planes[v], plane) == 0) planes[v].push_back(plane);
@@ -166,6 +202,7 @@ private:
     DisjointSets clusters_;
     std::vector<glm::dvec3> normals_;
     std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs_;
+    std::vector<std::uint32_t> members_;  ///< triangles in pairs
 };
 
 }  // namespace
