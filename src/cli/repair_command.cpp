@@ -4,6 +4,7 @@
 #include "cli/repair_options.h"
 #include "cli/scene_options.h"
 
+#include <transillum/base/error.h>
 #include <transillum/repair/check_scene.h>
 #include <transillum/repair/repair_scene.h>
 #include <transillum/repair/triangulate_scene.h>
@@ -96,6 +97,8 @@ int run(RepairArguments& a, const Common& common) {
     if (!a.no_check) checks.before = check_scene(scene, check, workers, console);
     RepairedScene repaired = repair_scene(scene, a.repair, workers, console);
     if (console.stop_requested()) return ExitCode::interrupted;
+    if (repaired.scene.polygons.empty())
+        throw InputError(a.scene, "no face with an area is left; accepted: at least one");
     if (!polygons) triangulate_scene(repaired.scene);
     save_scene(repaired.scene, a.output, console);
     if (!a.no_check) checks.after = check_scene(repaired.scene, check, workers, console);

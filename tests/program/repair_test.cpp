@@ -123,6 +123,14 @@ TEST_F(Repair, LeavesNothingBehindWhereItFails) {
     expect("repair dirty.obj -o out/fixed.obj --tolerance 1", usage, "--tolerance");
 }
 
+TEST_F(Repair, RefusesToWriteNothing) {
+    write("flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");
+    const Outcome o = run("repair flat.obj -o out/fixed.obj");
+    EXPECT_EQ(o.exit_code, bad_input);
+    EXPECT_NE(o.err.find("flat.obj: no face with an area"), std::string::npos) << o.err;
+    EXPECT_EQ(listing("out"), std::set<std::string>());
+}
+
 TEST_F(Repair, IsPartOfBaking) {
     write_dirty_room();
     const std::map<std::string, std::string> said{{"off", "no repair: --repair off"},

@@ -13,15 +13,18 @@ namespace transillum {
 
 enum class RepairLevel {
     off,
-    safe,  ///< no vertex moves and no face is cut: welds vertices at one place, drops faces without
-           ///< area and duplicates, orients consistently
-    full   ///< also joins near vertices and T-junctions, and resolves intersections and overlaps
+    safe,  ///< no vertex moves (but 2^-45 of an edge, to close a needle without area) and no face
+           ///< is cut: welds vertices at one place, drops faces without area and duplicates,
+           ///< orients consistently
+    full  ///< also joins near vertices and T-junctions, and resolves intersections and overlaps
 };
 
 struct RepairOptions {
     RepairLevel level = RepairLevel::full;
     Rounding rounding = Rounding::doubles;
-    double tolerance = 4e-7;   ///< near vertices and T-junctions, over the scene's diagonal
+    /// Over the scene's diagonal: of near vertices and T-junctions, of faces that overlap in one
+    /// plane but for it, of edges that are collapsed where they make faces meet.
+    double tolerance = 4e-7;
     bool close_cracks = true;  ///< full: join near vertices and T-junctions
     int rounds = 12;           ///< most times that rounding may be tried
 };
