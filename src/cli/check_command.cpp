@@ -3,6 +3,7 @@
 #include "cli/defect_json.h"
 #include "cli/scene_options.h"
 
+#include <transillum/base/error.h>
 #include <transillum/repair/check_scene.h>
 #include <transillum/solution/save_defects.h>
 
@@ -138,14 +139,21 @@ void print_text(const CheckReport& r, const CheckOptions& options) {
 }
 
 int run(const CheckArguments& a, const Common& common) {
-    for (const std::string& path : {a.vtk, a.leak_path})
-        if (!path.empty()) require_writable(path);
+    for (const std::string& path : {a.vtk, a.leak_path}) {
+        if (path.empty()) continue;
+        if (!path.ends_with(".vtp"))
+            throw UsageError(path + "; accepted: a name that ends in .vtp");
+        require_writable(path);
+    }
+    if (!a.vtk.empty() && a.vtk == a.leak_path)
+        throw UsageError("--vtk and --leak-path " + a.vtk + "; accepted: two files");
     Console console(common.quiet);
     CheckOptions options = a.check;
     options.leaks = !a.no_leaks;
     const Scene scene = load_scene(a.scene, a.load, console);
     const CheckReport report = check_scene(scene, options, Workers(a.threads), console);
     console.end_progress();
+    if (console.stop_requested()) return ExitCode::interrupted;
     if (!a.vtk.empty()) save_defects(report, scene, a.vtk);
     if (!a.leak_path.empty()) save_leaks(report.leaks, a.leak_path);
     if (a.json)

@@ -56,7 +56,7 @@ void print_json(const RepairArguments& a, const RepairReport& r, const Checks* c
 }
 
 void print_text(const RepairArguments& a, const RepairReport& r, const Checks* checks) {
-    if (!r.changed()) fmt::print("nothing to repair\n");
+    if (!r.changed() && r.welded == 0) fmt::print("nothing to repair\n");
     if (r.welded > 0) fmt::print("{:>9}  welded vertices at one place\n", r.welded);
     for (const RepairStep& step : r.steps) fmt::print("{:>9}  {}\n", step.count, step.what);
     if (r.faces_made > 0)
@@ -121,6 +121,9 @@ void add_repair(CLI::App& program, const Common& common, int& exit_code) {
     command->add_flag("--no-check", a->no_check, "don't count defects before and after");
     command->add_option("--threads", a->threads, "0: as many as the machine has")
         ->capture_default_str();
+    command->footer(
+        "Exit codes: 0 also where something harmful is left, which is told; 'check' of what was "
+        "written exits with 3 then.");
     command->callback([a, &common, &exit_code] { exit_code = run(*a, common); });
 }
 

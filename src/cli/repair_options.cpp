@@ -14,8 +14,10 @@ void add_repair_options(CLI::App& command, const std::string& level_name, Repair
         "run only where they find something")
         ->group(group);
     command
-        .add_option("--tolerance", options.tolerance,
-                    "distance over the scene's diagonal, within which cracks are closed")
+        .add_option(
+            "--tolerance", options.tolerance,
+            "distance over the scene's diagonal, within which cracks are closed, and faces that "
+            "overlap are taken for parts of one plane")
         ->check(within(0.0, 1e-3))
         ->capture_default_str()
         ->group(group);

@@ -27,7 +27,7 @@ void add_subdivide(CLI::App& program, const Common& common, int& exit_code) {
     CLI::Option* edge = command
                             ->add_option("--max-edge", a->subdivision.max_edge,
                                          "longest edge of a triangle [scene units]")
-                            ->check(not_negative());
+                            ->check(CLI::PositiveNumber);
     CLI::Option* level =
         command->add_option("--max-level", a->subdivision.level, "cut every triangle into 4^N")
             ->check(CLI::Range(0, max_subdivision_level))

@@ -1,4 +1,5 @@
 #include <transillum/repair/check_scene.h>
+#include <transillum/repair/snap_grid.h>
 
 #include "repair/defects/check_edges.h"
 #include "repair/defects/find_components.h"
@@ -164,7 +165,7 @@ void check_leaks(const Scene& scene, TriangleSoup soup, double leak_width, const
     RepairReport unused;
     repair_soup(soup, scene, exactly, {}, workers, monitor, unused);
     report.leaks = find_leaks(soup, scene, leak_width * report.diagonal, workers, monitor);
-    report.leaks_searched = true;
+    report.leaks_searched = !soup.triangles.empty() && !monitor.stop_requested();
     report.counts[static_cast<std::size_t>(Defect::leak)] =
         static_cast<std::uint64_t>(std::ranges::count(report.leaks, false, &Leak::is_opening));
 }
@@ -196,6 +197,7 @@ CheckReport check_scene(const Scene& scene, const CheckOptions& options, const W
                         Monitor& monitor) {
     if (scene.polygons.empty())
         throw InputError(scene.path, "there is no polygon; accepted: one or more");
+    require_extent(scene);
     std::uint64_t steps_done = 0;
     const auto step = [&](std::string_view phase) { monitor.progress({phase, steps_done++, 0}); };
     step("check: faces");

@@ -16,7 +16,10 @@ glm::dvec3 barycentric(const std::array<glm::dvec3, 3>& t, const glm::dvec3& p) 
     const double area = glm::dot(normal, normal);
     const double b1 = glm::dot(glm::cross(p - t[0], t[2] - t[0]), normal) / area;
     const double b2 = glm::dot(glm::cross(t[1] - t[0], p - t[0]), normal) / area;
-    return {1.0 - b1 - b2, b1, b2};
+    // Within it: what is cut from a needle may be beside it by more than its width.
+    const glm::dvec3 b = glm::max(glm::dvec3(1.0 - b1 - b2, b1, b2), 0.0);
+    const double sum = b.x + b.y + b.z;
+    return sum > 0.0 ? b / sum : glm::dvec3(1.0, 0.0, 0.0);  // also where it has lost its area
 }
 
 }  // namespace

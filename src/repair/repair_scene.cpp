@@ -10,6 +10,7 @@ RepairedScene repair_scene(const Scene& scene, const RepairOptions& options, con
     RepairedScene repaired{scene, {}};
     RepairReport& report = repaired.report;
     if (options.level == RepairLevel::off) return repaired;
+    require_extent(scene);
     const SnapGrid grid = snap_scene(repaired.scene, options.rounding);
     report.snapped_by = report.largest_move = grid.largest_move;
     SoupCounts counts;

@@ -29,6 +29,9 @@ constexpr double room = 8.0;
 /// Beside a length, one that rounding could have made.
 constexpr double as_nothing = 0x1p-45;
 
+/// Over the diagonal: more than rounding makes of coordinates that lie in one plane, on any grid.
+constexpr double noise = 0x1p-38;
+
 class SoupRepair {
 public:
     SoupRepair(TriangleSoup& soup, const Scene& scene, const RepairOptions& options,
@@ -73,8 +76,11 @@ private:
         std::array<std::uint64_t, 5> counts{};
         for (std::size_t t = 0; t < faults.size(); ++t) {
             ++counts[static_cast<std::size_t>(faults[t].fault)];
-            if (faults[t].fault == FaceFault::opposite)
-                soup_.triangles[faults[t].first].both_sides = true;
+            const bool both_sides =
+                faults[t].fault == FaceFault::opposite ||
+                (faults[t].fault == FaceFault::duplicate && soup_.triangles[t].both_sides &&
+                 share_material(t, faults[t].first));
+            if (both_sides) soup_.triangles[faults[t].first].both_sides = true;
         }
         if (counts[0] == faults.size()) return;
         std::size_t kept = 0;
@@ -90,6 +96,11 @@ private:
         told("dropped faces without area", counts[2]);
         told("dropped duplicate faces", counts[3]);
         told("merged faces wound both ways into one with two sides", counts[4]);
+    }
+
+    [[nodiscard]] bool share_material(std::size_t a, std::size_t b) const {
+        return scene_.polygons[soup_.triangles[a].polygon].material ==
+               scene_.polygons[soup_.triangles[b].polygon].material;
     }
 
     /// Without a needle that is too thin to have an area, its long edges would be a crack: where
@@ -116,7 +127,8 @@ private:
 
     /// Before the first cut: what overlaps but for rounding is to overlap exactly.
     std::vector<MeetingPair> look(std::size_t most = SIZE_MAX) {
-        flat_ = flatten(soup_, options_.tolerance * diagonal_);
+        // Noise is not a crack, and is flattened also where cracks are to stay.
+        flat_ = flatten(soup_, (options_.close_cracks ? options_.tolerance : noise) * diagonal_);
         std::vector<MeetingPair> pairs = find_pairs(most);
         if (pairs.empty()) flat_ = {};
         return pairs;

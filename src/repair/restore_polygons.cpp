@@ -71,9 +71,9 @@ private:
             std::swap(is[1], is[2]);
             if (is_same(was, is)) ++turned;
         }
-        return same == before.size()     ? Fate::kept
-               : turned == before.size() ? Fate::turned
-                                         : Fate::taken_apart;
+        if (same == before.size()) return Fate::kept;
+        // Other polygons may be triangulated otherwise from their other side.
+        return turned == 1 && before.size() == 1 ? Fate::turned : Fate::taken_apart;
     }
 
     void add(std::uint32_t number, std::span<const SoupTriangle> before,

@@ -5,7 +5,7 @@
 
 namespace transillum {
 
-/// Polygons whose triangles are as they were made stay as they are; those whose triangles were all
+/// Polygons whose triangles are as they were made stay as they are; triangles that were
 /// turned are turned; of others, every triangle that is left becomes a polygon. Triangles that
 /// stand for both sides get a material of which both sides reflect (and emit).
 /// \param made what make_soup gave for `scene`; \param left what became of it, polygon by polygon,

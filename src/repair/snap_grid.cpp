@@ -34,16 +34,16 @@ double largest_coordinate(const Scene& scene, const std::vector<bool>& used) {
     return largest;
 }
 
-void check_extent(const Scene& scene, const std::vector<bool>& used) {
-    const double largest = largest_coordinate(scene, used);
+}  // namespace
+
+void require_extent(const Scene& scene) {
+    const double largest = largest_coordinate(scene, used_positions(scene));
     if (largest == 0.0 || (largest >= least_extent && largest <= most_extent)) return;
     std::ostringstream text;
     text << "the largest coordinate is " << largest << "; accepted: " << least_extent << " to "
          << most_extent << ", so in another unit";
     throw InputError(scene.path, text.str());
 }
-
-}  // namespace
 
 SnapGrid dyadic_grid(const Scene& scene) {
     const double largest = largest_coordinate(scene, used_positions(scene));
@@ -76,7 +76,7 @@ SnapGrid snap_scene(Scene& scene, Rounding rounding) {
     SnapGrid grid = dyadic_grid(scene);
     if (rounding == Rounding::doubles) return grid;
     const std::vector<bool> used = used_positions(scene);
-    if (rounding == Rounding::dyadic) check_extent(scene, used);
+    require_extent(scene);
     for (std::size_t i = 0; i < scene.positions.size(); ++i) {
         if (!used[i]) continue;
         glm::dvec3& p = scene.positions[i];

@@ -171,8 +171,10 @@ std::vector<Decision> decisions_about(const RepairReport& report, RepairLevel le
     std::string done;
     for (const RepairStep& step : report.steps)
         done += fmt::format("{}{} {}", done.empty() ? "" : ", ", step.what, step.count);
+    const char* const nothing = level == RepairLevel::safe ? "a safe one would find nothing to do"
+                                                           : "it would find nothing to do";
     return {level == RepairLevel::off ? Decision{"no repair", "--repair off"}
-            : done.empty()            ? Decision{"no repair", "the meshes have no defect"}
+            : done.empty()            ? Decision{"no repair", nothing}
                                       : Decision{"meshes repaired", done},
             {fmt::format("vertices snapped to a grid of {:.3g}, by up to {:.3g}",
                          std::ldexp(1.0, grid.exponent), grid.largest_move),

@@ -16,7 +16,7 @@ enum class RepairLevel {
     safe,  ///< no vertex moves (but 2^-45 of an edge, to close a needle without area) and no face
            ///< is cut: welds vertices at one place, drops faces without area and duplicates,
            ///< orients consistently
-    full  ///< also joins near vertices and T-junctions, and resolves intersections and overlaps
+    full   ///< also joins near vertices and T-junctions, and resolves intersections and overlaps
 };
 
 struct RepairOptions {

@@ -37,6 +37,8 @@ struct VertexRounding {
 /// Absolute values that the largest coordinate may have where it is dyadic [scene units]: areas and
 /// their products then stay well within what floats hold, which light is worked out in.
 inline constexpr double least_extent = 1e-15, most_extent = 1e15;
+/// \throws InputError where the largest coordinate that polygons use is outside, or is no number
+void require_extent(const Scene& scene);
 
 /// Rounds every position that a polygon uses; says how far the furthest was moved.
 /// \throws InputError on a coordinate that is no finite number; dyadic: where the largest is
