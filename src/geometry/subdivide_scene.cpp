@@ -189,6 +189,20 @@ void SceneSubdivider::subdivide(const Triangle& t, int depth) {
     subdivide(m, depth + 1);
 }
 
+std::uint64_t drop_without_area(TriangleSoup& soup) {
+    std::uint32_t kept = 0;
+    for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) {
+        if (!has_area(soup, t)) continue;
+        soup.triangles[kept] = soup.triangles[t];
+        if (!soup.uvs.empty()) soup.uvs[kept] = soup.uvs[t];
+        ++kept;
+    }
+    const std::uint64_t dropped = soup.triangles.size() - kept;
+    soup.triangles.resize(kept);
+    if (!soup.uvs.empty()) soup.uvs.resize(kept);
+    return dropped;
+}
+
 void tell(const SubdivisionReport& r, const SoupCounts& counts, const Scene& scene,
           Monitor& monitor) {
     monitor.note(scene.path + ": vertices are on a grid of " +
@@ -196,7 +210,7 @@ void tell(const SubdivisionReport& r, const SoupCounts& counts, const Scene& sce
                  shown(r.grid.largest_move));
     if (counts.without_area > 0)
         monitor.note(scene.path + ": left out " + std::to_string(counts.without_area) +
-                     " polygons without area");
+                     " polygons and triangles without area");
     monitor.note(scene.path + ": " + std::to_string(r.triangles_before) + " triangles became " +
                  std::to_string(r.triangles));
 }
@@ -210,7 +224,8 @@ Scene subdivide_scene(const Scene& scene, const SceneSubdivision& options, Monit
     Scene snapped = scene;
     told.grid = snap_scene(snapped, Rounding::dyadic);
     SoupCounts counts;
-    const TriangleSoup soup = make_soup(snapped, &counts);
+    TriangleSoup soup = make_soup(snapped, &counts);
+    counts.without_area += drop_without_area(soup);
     if (soup.triangles.empty())
         throw InputError(scene.path, "no triangle with an area; accepted: at least one");
     told.triangles_before = soup.triangles.size();

@@ -56,7 +56,7 @@ struct RepairedScene {
     RepairReport report;
 };
 
-/// Runs the passes whose defects are present. \throws as make_soup.
+/// Runs the passes whose defects are present. \throws as require_extent.
 [[nodiscard]] RepairedScene repair_scene(const Scene& scene, const RepairOptions& options,
                                          const Workers& workers, Monitor& monitor);
 

@@ -227,6 +227,25 @@ TEST(RepairScene, MakesTwoSidesOfFacesBackToBack) {
     EXPECT_FALSE(repaired.materials[repaired.polygons[1].material].back_reflects);
 }
 
+/// What stands for both sides hands that on to what takes its place.
+TEST(RepairScene, KeepsTwoSidesWhereDuplicatesGo) {
+    SceneBuilder b;
+    b.scene.materials[0].back_reflects = false;
+    b.polygon({{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}});
+    b.polygon({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
+    b.polygon({{0, 1, 0}, {1, 1, 0}, {1, 0, 0}, {0, 0, 0}});
+    const Scene repaired = repair(b.scene).scene;
+    const TriangleSoup soup = make_soup(repaired);
+    double one = 0.0, two = 0.0;
+    for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) {
+        const Polygon& p = repaired.polygons[soup.triangles[t].polygon];
+        (repaired.materials[p.material].back_reflects ? two : one) +=
+            0.5 * glm::length(area_vector(soup, t));
+    }
+    EXPECT_EQ(one, 3.0);
+    EXPECT_EQ(two, 1.0);
+}
+
 TEST(RepairScene, LeavesSoundScenesAsTheyAre) {
     SceneBuilder b;
     b.box({-0.0, 0, 0}, {1, 1, 1}, Facing::outwards);
