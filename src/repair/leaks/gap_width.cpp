@@ -55,9 +55,11 @@ struct Sector {
     double half_angle;  ///< at most pi / 2
 };
 
-/// Keeps the part of a segment where `inside` is not negative.
+/// Keeps the part of a segment where `inside` is not negative, but for rounding: an edge straight
+/// above another, as of a lid that is flush, lies on the sector's border.
 bool clip(glm::dvec2& from, glm::dvec2& to, const glm::dvec2& inside) {
-    const double a = glm::dot(from, inside), b = glm::dot(to, inside);
+    const double rounding = 1e-12 * std::max(glm::length(from), glm::length(to));
+    const double a = glm::dot(from, inside) + rounding, b = glm::dot(to, inside) + rounding;
     if (a < 0.0 && b < 0.0) return false;
     if (a < 0.0) from += (to - from) * (a / (a - b));
     if (b < 0.0) to += (from - to) * (b / (b - a));
