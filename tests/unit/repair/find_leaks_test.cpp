@@ -161,6 +161,24 @@ TEST_P(Leaks, AreFoundUnderALidThatLiesOpenByAHair) {
     EXPECT_EQ(report.counts[std::size_t(Defect::leak)], 1u);
 }
 
+/// The lid ends straight above the flange's edge.
+TEST_P(Leaks, AreFoundBetweenALidAndAFlangeThatAreFlush) {
+    for (const double slit : {0x1p-8, 0x1p-16}) {
+        made = PlacedScene(GetParam());
+        made.box({0, 0, 0}, {4, 4, 4}, true, 0, 0, 1);
+        made.polygon({{0, 0, 4}, {4, 0, 4}, {5, -1, 4}, {-1, -1, 4}});
+        made.polygon({{4, 0, 4}, {4, 4, 4}, {5, 5, 4}, {5, -1, 4}});
+        made.polygon({{4, 4, 4}, {0, 4, 4}, {-1, 5, 4}, {5, 5, 4}});
+        made.polygon({{0, 4, 4}, {0, 0, 4}, {-1, -1, 4}, {-1, 5, 4}});
+        made.polygon({{-1, -1, 4 + slit}, {5, -1, 4 + slit}, {5, 5, 4 + slit}, {-1, 5, 4 + slit}});
+        add_lamp();
+        const CheckReport report = check(made.scene);
+        ASSERT_EQ(report.leaks.size(), 1u);
+        EXPECT_FALSE(report.leaks[0].is_opening);
+        EXPECT_NEAR(report.leaks[0].width / GetParam().scale, slit, 0x1p-36);
+    }
+}
+
 TEST_P(Leaks, AreNotUnderALidThatLiesOnTheRim) {
     made.box({0, 0, 0}, {4, 4, 4}, true, 0, 0, 1);
     made.polygon({{-1, -1, 4}, {5, -1, 4}, {5, 5, 4}, {-1, 5, 4}});
