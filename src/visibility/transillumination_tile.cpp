@@ -62,13 +62,27 @@ bool TransilluminationBuffer::are_coplanar(std::uint32_t root_a, std::uint32_t r
     return true;
 }
 
+/// How far the corner that `root` does not share is behind the plane of a triangle it shares an
+/// edge with; 0 where it shares none.
+double TransilluminationBuffer::depth_beside_edge(std::uint32_t root, std::uint32_t other) const {
+    const auto &v = mesh_.triangles[root].vertices, &w = mesh_.triangles[other].vertices;
+    std::array<std::uint32_t, 3> own{};
+    const auto end = std::ranges::copy_if(v, own.begin(), [&](std::uint32_t i) {
+                         return std::ranges::count(w, i) == 0;
+                     }).out;
+    if (end - own.begin() != 1) return 0.0;
+    const ProjectedVertex& corner = projected_[own[0]];
+    return corner.depth - depth_plane(other).at(corner.x / fixed_unit, corner.y / fixed_unit);
+}
+
 /// The order of two fragments whose 31 bits of depth all but agree. Vertices were moved within the
 /// window, not in depth, so the depths of coinciding surfaces differ a little: there their keys
-/// decide, elsewhere their planes do.
+/// decide, elsewhere their planes do. On an edge that is an outline, what they are beside it.
 bool TransilluminationBuffer::is_behind(Fragment a, Fragment b, int x, int y) const {
     const std::uint32_t root_a = patches_.root_of_leaf[leaf_of(a)],
                         root_b = patches_.root_of_leaf[leaf_of(b)];
-    const double distance = depth_plane(root_a).at(x, y) - depth_plane(root_b).at(x, y);
+    double distance = depth_plane(root_a).at(x, y) - depth_plane(root_b).at(x, y);
+    if (std::abs(distance) <= depth_rounding) distance = depth_beside_edge(root_a, root_b);
     if (std::abs(distance) <= depth_rounding || are_coplanar(root_a, root_b))
         return static_cast<std::uint32_t>(a) > static_cast<std::uint32_t>(b);
     return distance > 0.0;

@@ -35,7 +35,6 @@ public:
 
     FlatVertices run() {
         FlatVertices flat;
-        if (pairs_.empty()) return flat;
         for (const auto& [vertex, planes] : planes_of_vertices()) move(vertex, planes, flat);
         while (keep_areas(flat)) {
         }
@@ -76,7 +75,12 @@ private:
             boxes.emplace_back(CGAL::Bbox_3(low.x, low.y, low.z, high.x, high.y, high.z), t);
         }
         CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box& a, const Box& b) {
-            if (overlap(a.info(), b.info())) pairs_.emplace_back(a.info(), b.info());
+            if (overlap(a.info(), b.info())) {
+                pairs_.emplace_back(a.info(), b.info());
+                return;
+            }
+            find_standing(a.info(), b.info());
+            find_standing(b.info(), a.info());
         });
         for (const auto& [a, b] : pairs_) {
             clusters_.join(a, b);
@@ -130,6 +134,35 @@ private:
                !separates(corners(b), normals_[b], corners(a));
     }
 
+    /// Vertices and edges of `t` that lie in the other's plane and reach its inside.
+    void find_standing(std::uint32_t t, std::uint32_t on) {
+        const Triangle &face = corners(on), &corner = corners(t);
+        std::array<std::uint32_t, 3> standing{};
+        int count = 0;
+        for (int i = 0; i < 3; ++i) {
+            if (std::abs(glm::dot(corner[i] - face[0], normals_[on])) > tolerance_) continue;
+            standing[count++] = static_cast<std::uint32_t>(i);
+        }
+        if (count == 0 || count == 3) return;
+        const glm::dvec3 &from = corner[standing[0]], &to = corner[standing[count - 1]];
+        if (separates(face, normals_[on], {from, to, to}) || passes(face, normals_[on], from, to))
+            return;
+        for (int i = 0; i < count; ++i)
+            standing_.emplace_back(soup_.triangles[t].vertices[standing[i]], on);
+    }
+
+    /// Does the line of an edge in the face's plane leave it on one side?
+    [[nodiscard]] bool passes(const Triangle& face, const glm::dvec3& normal,
+                              const glm::dvec3& from, const glm::dvec3& to) const {
+        const glm::dvec3 across = glm::cross(normal, to - from);
+        if (across == glm::dvec3(0.0)) return false;
+        const auto side = [&](const glm::dvec3& p) {
+            return glm::dot(p - from, glm::normalize(across));
+        };
+        return std::ranges::all_of(face, [&](const auto& p) { return side(p) <= tolerance_; }) ||
+               std::ranges::all_of(face, [&](const auto& p) { return side(p) >= -tolerance_; });
+    }
+
     /// Of every vertex of what overlaps, the triangles that stand for its planes.
     std::map<std::uint32_t, std::vector<std::uint32_t>> planes_of_vertices() {
         std::map<std::uint32_t, std::uint32_t> largest;
@@ -139,11 +172,14 @@ private:
             if (area(t) > area(at->second)) at->second = t;
         }
         std::map<std::uint32_t, std::vector<std::uint32_t>> planes;
+        const auto add = [&](std::uint32_t v, std::uint32_t t) {
+            const auto found = largest.find(clusters_.find(t));
+            const std::uint32_t plane = found == largest.end() ? t : found->second;
+            if (std::ranges::count(planes[v], plane) == 0) planes[v].push_back(plane);
+        };
         for (const std::uint32_t t : members_)
-            for (const std::uint32_t v : soup_.triangles[t].vertices) {
-                const std::uint32_t plane = largest.at(clusters_.find(t));
-                if (std::ranges::count(planes[v], plane) == 0) planes[v].push_back(plane);
-            }
+            for (const std::uint32_t v : soup_.triangles[t].vertices) add(v, t);
+        for (const auto& [v, t] : standing_) add(v, t);
         return planes;
     }
 
@@ -202,7 +238,8 @@ private:
     DisjointSets clusters_;
     std::vector<glm::dvec3> normals_;
     std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs_;
-    std::vector<std::uint32_t> members_;  ///< triangles in pairs
+    std::vector<std::uint32_t> members_;                             ///< triangles in pairs
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> standing_;  ///< vertices, on what
 };
 
 }  // namespace
