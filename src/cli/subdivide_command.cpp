@@ -22,7 +22,9 @@ void add_subdivide(CLI::App& program, const Common& common, int& exit_code) {
         "subdivide",
         "Cut a scene's polygons into small triangles, exactly and without T-junctions");
     command->add_option("SCENE", a->scene, "scene: .gltf .glb .obj .ply .stl .off")->required();
-    command->add_option("-o,--output", a->output, "scene to write, of any of these formats")
+    command
+        ->add_option("-o,--output", a->output,
+                     "scene to write, of any of these formats (.stl and .gltf round to floats)")
         ->required();
     CLI::Option* edge = command
                             ->add_option("--max-edge", a->subdivision.max_edge,

@@ -4,8 +4,8 @@
 //
 // One line a file. Seconds: of check (leaks are not looked for) and of repair, after loading. Peak:
 // memory up to the end of the repair [MiB]. Harmful: counts of all harmful defects, and which are
-// left. Hausdorff (sampled), area of the union (change, relative) and largest move: whether the
-// surface is the same one.
+// left. Hausdorff (sampled), area of the union (change, relative; what overlaps within the tolerance
+// counts once) and largest move: whether the surface is the same one.
 #include "support/surface_distance.h"
 #include "support/union_area.h"
 
@@ -81,7 +81,8 @@ void measure(const char* path) {
 
     const TriangleSoup was = make_soup(scene), is = make_soup(repaired.scene);
     const SurfaceDistance distance = surface_distance(was, is, random_samples, workers);
-    const UnionArea area = union_area(was), area_after = union_area(is);
+    const double tolerance = RepairOptions{}.tolerance * before.diagonal;
+    const UnionArea area = union_area(was, tolerance), area_after = union_area(is, tolerance);
     const RepairReport& r = repaired.report;
     const Harm harm = harm_in(before), left = harm_in(after);
     fmt::print(

@@ -8,6 +8,7 @@
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -24,14 +25,13 @@ using Corners2 = std::array<Kernel::Point_2, 3>;
 
 class Overlaps {
 public:
-    explicit Overlaps(const TriangleSoup& soup) : soup_(soup), cluster_(soup.triangles.size()) {
+    Overlaps(const TriangleSoup& soup, double tolerance)
+        : soup_(soup), tolerance_(tolerance), cluster_(soup.triangles.size()) {
         std::iota(cluster_.begin(), cluster_.end(), 0u);
         for (const glm::dvec3& p : soup.positions) points_.emplace_back(p.x, p.y, p.z);
         std::vector<Box> boxes;
         for (std::uint32_t t = 0; t < soup.triangles.size(); ++t)
-            if (has_area(soup, t))
-                boxes.emplace_back(corner(t, 0).bbox() + corner(t, 1).bbox() + corner(t, 2).bbox(),
-                                   t);
+            if (has_area(soup, t)) boxes.emplace_back(box_of(t), t);
         CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box& a, const Box& b) {
             if (is_in_one_plane(a.info(), b.info()) && share_area(a.info(), b.info()))
                 join(a.info(), b.info());
@@ -47,11 +47,13 @@ public:
 
     /// Of several triangles in one plane.
     [[nodiscard]] double area_of(const std::vector<std::uint32_t>& members) const {
-        const std::uint32_t first = members.front();
+        const std::uint32_t first = *std::ranges::max_element(
+            members, {}, [&](std::uint32_t t) { return glm::length(area_vector(soup_, t)); });
         const int axis = steepest_axis(first);
         std::vector<CGAL::Polygon_2<Kernel>> polygons;
         for (const std::uint32_t t : members) {
-            const Corners2 c = projected(t, axis);
+            const Corners2 c = projected(t, first, axis);
+            if (CGAL::orientation(c[0], c[1], c[2]) == CGAL::COLLINEAR) continue;
             polygons.emplace_back(c.begin(), c.end());
         }
         CGAL::Polygon_set_2<Kernel> all;
@@ -77,10 +79,25 @@ private:
     [[nodiscard]] Kernel::Vector_3 normal(std::uint32_t t) const {
         return CGAL::cross_product(corner(t, 1) - corner(t, 0), corner(t, 2) - corner(t, 0));
     }
+    [[nodiscard]] CGAL::Bbox_3 box_of(std::uint32_t t) const {
+        const CGAL::Bbox_3 b = corner(t, 0).bbox() + corner(t, 1).bbox() + corner(t, 2).bbox();
+        return {b.xmin() - tolerance_, b.ymin() - tolerance_, b.zmin() - tolerance_,
+                b.xmax() + tolerance_, b.ymax() + tolerance_, b.zmax() + tolerance_};
+    }
     [[nodiscard]] bool is_in_one_plane(std::uint32_t a, std::uint32_t b) const {
-        for (int i = 0; i < 3; ++i)
-            if (!CGAL::coplanar(corner(a, 0), corner(a, 1), corner(a, 2), corner(b, i)))
+        return is_in_plane_of(a, b) && (tolerance_ == 0.0 || is_in_plane_of(b, a));
+    }
+    [[nodiscard]] bool is_in_plane_of(std::uint32_t a, std::uint32_t b) const {
+        const glm::dvec3 unit = glm::normalize(area_vector(soup_, a));
+        const auto position = [&](std::uint32_t t, int i) {
+            return soup_.positions[soup_.triangles[t].vertices[i]];
+        };
+        for (int i = 0; i < 3; ++i) {
+            if (CGAL::coplanar(corner(a, 0), corner(a, 1), corner(a, 2), corner(b, i))) continue;
+            if (std::abs(glm::dot(position(b, i) - position(a, 0), unit)) > tolerance_ ||
+                tolerance_ == 0.0)
                 return false;
+        }
         return true;
     }
     /// Along which its projection has area.
@@ -88,18 +105,22 @@ private:
         const glm::dvec3 n = glm::abs(area_vector(soup_, t));
         return n.x > n.y ? (n.x > n.z ? 0 : 2) : (n.y > n.z ? 1 : 2);
     }
-    /// Counter-clockwise.
-    [[nodiscard]] Corners2 projected(std::uint32_t t, int axis) const {
+    /// Onto the plane of another, from there along an axis. Counter-clockwise.
+    [[nodiscard]] Corners2 projected(std::uint32_t t, std::uint32_t plane, int axis) const {
+        const Kernel::Plane_3 onto(corner(plane, 0), corner(plane, 1), corner(plane, 2));
         Corners2 c;
-        for (int i = 0; i < 3; ++i)
-            c[i] = {corner(t, i)[(axis + 1) % 3], corner(t, i)[(axis + 2) % 3]};
+        for (int i = 0; i < 3; ++i) {
+            const Kernel::Point_3 p =
+                onto.has_on(corner(t, i)) ? corner(t, i) : onto.projection(corner(t, i));
+            c[i] = {p[(axis + 1) % 3], p[(axis + 2) % 3]};
+        }
         if (CGAL::orientation(c[0], c[1], c[2]) == CGAL::CLOCKWISE) std::swap(c[1], c[2]);
         return c;
     }
     /// Convex shapes have no inner point in common where an edge's line separates them.
     [[nodiscard]] bool share_area(std::uint32_t a, std::uint32_t b) const {
         const int axis = steepest_axis(a);
-        const std::array<Corners2, 2> both{projected(a, axis), projected(b, axis)};
+        const std::array<Corners2, 2> both{projected(a, a, axis), projected(b, a, axis)};
         for (int which = 0; which < 2; ++which)
             for (int i = 0; i < 3; ++i) {
                 const Corners2 &edge = both[which], &other = both[1 - which];
@@ -118,6 +139,7 @@ private:
     void join(std::uint32_t a, std::uint32_t b) { cluster_[find(a)] = find(b); }
 
     const TriangleSoup& soup_;
+    double tolerance_;
     std::vector<std::uint32_t> cluster_;
     std::vector<Kernel::Point_3> points_;
 };
@@ -131,10 +153,10 @@ long double area_of(const TriangleSoup& soup, std::uint32_t t) {
 
 }  // namespace
 
-UnionArea union_area(const TriangleSoup& soup) {
+UnionArea union_area(const TriangleSoup& soup, double tolerance) {
     long double covered = 0, sum = 0;
     UnionArea area;
-    Overlaps overlaps(soup);
+    Overlaps overlaps(soup, tolerance);
     for (const auto& [root, members] : overlaps.clusters()) {
         for (const std::uint32_t t : members) sum += area_of(soup, t);
         if (members.size() == 1) {

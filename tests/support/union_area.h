@@ -14,9 +14,10 @@ struct UnionArea {
     std::uint64_t overlapping = 0;  ///< faces in them
 };
 
-/// Faces that share area of exactly one plane are found with exact predicates and united as
-/// polygons with exact coordinates; the others count as they are. Independent of how a repair
-/// resolves overlaps.
-[[nodiscard]] UnionArea union_area(const TriangleSoup& soup);
+/// Faces that share area of one plane are found with exact predicates and united as polygons with
+/// exact coordinates, projected onto the plane of the largest; the others count as they are.
+/// Independent of how a repair resolves overlaps.
+/// \param tolerance how far their corners may be from each other's planes [scene units]
+[[nodiscard]] UnionArea union_area(const TriangleSoup& soup, double tolerance = 0.0);
 
 }  // namespace transillum::testing_support

@@ -66,6 +66,14 @@ TEST(UnionArea, LeavesHolesOpen) {
     EXPECT_EQ(union_area(make_soup(b.scene)).covered, 8.0);
 }
 
+TEST(UnionArea, CountsOnceWhatOverlapsWithinATolerance) {
+    SceneBuilder b;
+    b.polygon({{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1, 0}});
+    b.polygon({{1, 0, 1e-9}, {3, 0, 2e-9}, {3, 1, 2e-9}, {1, 1, 1e-9}});
+    EXPECT_NEAR(union_area(make_soup(b.scene)).covered, 4.0, 1e-15);
+    EXPECT_NEAR(union_area(make_soup(b.scene), 4e-9).covered, 3.0, 1e-15);
+}
+
 struct Kept {
     double distance = 0.0;  ///< over the diagonal
     double area = 0.0;      ///< change over that before
