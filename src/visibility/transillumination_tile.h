@@ -18,7 +18,7 @@ inline constexpr int block = 8;
 /// A quantity that is linear over the window.
 struct TransilluminationBuffer::Plane {
     double x0, y0, value, dx, dy;
-    [[nodiscard]] double at(double x, double y) const { return value + dx * (x - x0) + dy * (y - y0); }
+    [[nodiscard]] double at(int x, int y) const { return value + dx * (x - x0) + dy * (y - y0); }
 };
 
 /// A tile being filled. Fragments are drawn in the triangles' order, then sorted by pixel and by

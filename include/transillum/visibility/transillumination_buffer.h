@@ -115,7 +115,6 @@ private:
     static std::array<Plane, 2> barycentric_planes(const std::array<struct FixedPoint, 3>& v,
                                                    std::int64_t twice_area);
     bool are_coplanar(std::uint32_t root_a, std::uint32_t root_b) const;
-    double depth_beside_edge(std::uint32_t root, std::uint32_t other) const;
     bool is_behind(Fragment a, Fragment b, int x, int y) const;
     void sort_list(Fragment* begin, Fragment* end, int x, int y) const;
 
