@@ -176,8 +176,9 @@ private:
             left = cut(left);
             if (left.size() < best.pairs) best = {soup_, report_, left.size()};
         }
-        if (best.pairs > 0) restore(best);
-        report_.pairs_left = best.pairs;
+        if (best.pairs == 0) return;
+        restore(best);
+        report_.pairs_left = find_pairs().size();  // all of them: best.pairs may be of a limit
     }
 
     /// A repair so far, to come back to.

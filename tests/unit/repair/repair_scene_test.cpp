@@ -3,6 +3,7 @@
 
 #include "repair/defects/find_defects.h"
 #include "repair/exact/find_intersections.h"
+#include "repair/repair_soup.h"
 #include "support/scene_builder.h"
 #include "unit/repair/random_soups.h"
 
@@ -244,6 +245,33 @@ TEST(RepairScene, KeepsTwoSidesWhereDuplicatesGo) {
     }
     EXPECT_EQ(one, 3.0);
     EXPECT_EQ(two, 1.0);
+}
+
+/// A stack that a wall cuts, on a grid far coarser than its steps: one cut brings so many more
+/// pairs that the search for them ends early.
+TEST(RepairScene, CountsAllPairsThatAreLeft) {
+    SceneBuilder b;
+    b.polygon({{0, -4, -1}, {0, 4, -1}, {0, 0, 4}});
+    const int steps = 600;
+    for (int i = 0; i < steps; ++i) {
+        const double z = 0x1p-12 * (i + 1) / steps, turn = i;
+        Outline outline;
+        for (const double angle : {turn, turn + 2.0, turn + 4.0})
+            outline.emplace_back(std::cos(angle), std::sin(angle), z);
+        b.polygon(outline);
+    }
+    TriangleSoup soup = make_soup(b.scene);
+    const Workers workers(2);
+    const std::size_t before = find_intersections(soup, workers).size();
+    RepairOptions options;
+    options.close_cracks = false;
+    options.rounding = Rounding::dyadic;
+    options.rounds = 1;
+    RepairReport report;
+    Monitor silent;
+    repair_soup(soup, b.scene, options, {-3, 0.0}, workers, silent, report);
+    EXPECT_GT(report.pairs_left, 8 * before + 1000);
+    EXPECT_EQ(report.pairs_left, find_intersections(soup, workers).size());
 }
 
 TEST(RepairScene, LeavesSoundScenesAsTheyAre) {
