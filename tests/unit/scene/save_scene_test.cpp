@@ -1,6 +1,8 @@
 // Where scenes are written to, and what is left where that fails.
 #include "unit/scene/saved_scenes.h"
 
+#include <limits>
+
 namespace transillum {
 
 namespace {
@@ -40,6 +42,24 @@ TEST_F(SaveScene, WhatFailsLeavesAllAsItWas) {
     scene.polygons.clear();
     EXPECT_THROW(save_scene(scene, folder_ / "x.ply", monitor_), InputError);
     EXPECT_EQ(listing(), (std::set<std::string>{"x.mtl", "x.obj", "y.obj"}));
+}
+
+TEST_F(SaveScene, FormatsOfFloatsRefuseWhatIsNoFiniteNumber) {
+    for (const double value :
+         {std::numeric_limits<double>::quiet_NaN(), -std::numeric_limits<double>::infinity()})
+        for (const char* name : {"x.stl", "x.gltf", "x.glb"}) {
+            Scene scene = two_objects({named("m")});
+            scene.positions[1].y = value;
+            try {
+                save_scene(scene, folder_ / name, monitor_);
+                ADD_FAILURE() << name;
+            } catch (const InputError& error) {
+                EXPECT_STREQ(error.what(),
+                             "made: vertex 1 has a coordinate that is no finite number; accepted: "
+                             "finite ones");
+            }
+        }
+    EXPECT_TRUE(listing().empty());
 }
 
 TEST_F(SaveScene, ReplacesWhatWasThere) {
