@@ -1,6 +1,7 @@
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/defect_json.h"
+#include "cli/repair_options.h"
 #include "cli/scene_options.h"
 
 #include <transillum/base/error.h>
@@ -164,14 +165,15 @@ int run(const CheckArguments& a, const Common& common) {
 }
 
 void add_thresholds(CLI::App& command, CheckOptions& options) {
+    const char* const group = "Thresholds";
+    add_tolerance(command, options.tolerance, "vertices are near and edges passed by")
+        ->group(group);
     const auto add = [&](const char* name, double& value, const char* help) {
         command.add_option(name, value, help)
             ->check(within(0.0, 1.0))
             ->capture_default_str()
-            ->group("Thresholds");
+            ->group(group);
     };
-    add("--tolerance", options.tolerance,
-        "distance over the scene's diagonal, within which vertices are near and edges passed by");
     add("--needle", options.needle, "height over longest edge, below which a face is a needle");
     add("--thin-wall", options.thin_wall,
         "thickness over the diagonal, below which a wall is thin");
