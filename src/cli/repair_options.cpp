@@ -4,6 +4,13 @@
 
 namespace transillum::cli {
 
+void add_mesh_options(CLI::App& command, MeshOptions& options) {
+    add_scene_argument(command, options.scene);
+    command.add_flag("--json", options.json, "machine-readable report");
+    command.add_option("--threads", options.threads, "0: as many as the machine has")
+        ->capture_default_str();
+}
+
 CLI::Option* add_tolerance(CLI::App& command, double& tolerance, const std::string& what) {
     return command
         .add_option("--tolerance", tolerance,

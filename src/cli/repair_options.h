@@ -9,6 +9,14 @@
 
 namespace transillum::cli {
 
+/// What both have.
+struct MeshOptions {
+    std::string scene;
+    int threads = 0;
+    bool json = false;
+};
+void add_mesh_options(CLI::App& command, MeshOptions& options);
+
 /// --tolerance, of cracks. \param what it is for: "... within which <what>"
 CLI::Option* add_tolerance(CLI::App& command, double& tolerance, const std::string& what);
 
