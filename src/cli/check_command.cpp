@@ -1,6 +1,7 @@
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/defect_json.h"
+#include "cli/repair_options.h"
 #include "cli/scene_options.h"
 
 #include <transillum/base/error.h>
@@ -21,11 +22,11 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct CheckArguments {
-    std::string scene, vtk, leak_path;
+    MeshOptions mesh;
+    std::string vtk, leak_path;
     LoadOptions load;
     CheckOptions check;
-    int threads = 0;
-    bool no_leaks = false, json = false;
+    bool no_leaks = false;
 };
 
 Json harmful_names() {
@@ -150,13 +151,13 @@ int run(const CheckArguments& a, const Common& common) {
     Console console(common.quiet);
     CheckOptions options = a.check;
     options.leaks = !a.no_leaks;
-    const Scene scene = load_scene(a.scene, a.load, console);
-    const CheckReport report = check_scene(scene, options, Workers(a.threads), console);
+    const Scene scene = load_scene(a.mesh.scene, a.load, console);
+    const CheckReport report = check_scene(scene, options, Workers(a.mesh.threads), console);
     console.end_progress();
     if (console.stop_requested()) return ExitCode::interrupted;
     if (!a.vtk.empty()) save_defects(report, scene, a.vtk);
     if (!a.leak_path.empty()) save_leaks(report.leaks, a.leak_path);
-    if (a.json)
+    if (a.mesh.json)
         fmt::print("{}\n", describe(report, options).dump(2));
     else
         print_text(report, options);
@@ -164,14 +165,15 @@ int run(const CheckArguments& a, const Common& common) {
 }
 
 void add_thresholds(CLI::App& command, CheckOptions& options) {
+    const char* const group = "Thresholds";
+    add_tolerance(command, options.tolerance, "vertices are near and edges passed by")
+        ->group(group);
     const auto add = [&](const char* name, double& value, const char* help) {
         command.add_option(name, value, help)
             ->check(within(0.0, 1.0))
             ->capture_default_str()
-            ->group("Thresholds");
+            ->group(group);
     };
-    add("--tolerance", options.tolerance,
-        "distance over the scene's diagonal, within which vertices are near and edges passed by");
     add("--needle", options.needle, "height over longest edge, below which a face is a needle");
     add("--thin-wall", options.thin_wall,
         "thickness over the diagonal, below which a wall is thin");
@@ -185,23 +187,13 @@ void add_check(CLI::App& program, const Common& common, int& exit_code) {
     auto a = std::make_shared<CheckArguments>();
     CLI::App* command =
         program.add_subcommand("check", "What is wrong with a scene's meshes; changes nothing");
-    command->add_option("SCENE", a->scene, "scene: .gltf .glb .obj .ply .stl .off")->required();
-    command->add_flag("--json", a->json, "machine-readable");
+    add_mesh_options(*command, a->mesh);
     command->add_option("--vtk", a->vtk, "write the defects there: .vtp, see its array Defect");
     command->add_option("--leak-path", a->leak_path,
                         "write the ways from luminaires and cameras to outside there: .vtp");
     command->add_flag("--no-leaks", a->no_leaks, "don't search for ways to outside");
     add_thresholds(*command, a->check);
-    add_choice(*command, "--sides", a->load.sides,
-               {{"file", Sides::file}, {"one", Sides::one}, {"two", Sides::two}},
-               "which sides of a surface reflect and emit")
-        ->group("Scene");
-    command
-        ->add_flag("--drop-transparent", a->load.drop_transparent,
-                   "leave out transparent surfaces (else they are opaque)")
-        ->group("Scene");
-    command->add_option("--threads", a->threads, "0: as many as the machine has")
-        ->capture_default_str();
+    add_load_options(*command, a->load);
     command->footer(
         "Exit codes: 0 nothing harmful, 3 something harmful or a bad scene, others as "
         "of the program.");

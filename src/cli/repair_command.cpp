@@ -19,11 +19,10 @@ namespace transillum::cli {
 namespace {
 
 struct RepairArguments {
-    std::string scene, output;
-    LoadOptions load;
+    MeshOptions mesh;
+    std::string output;
     RepairOptions repair;
-    int threads = 0;
-    bool no_check = false, json = false;
+    bool no_check = false;
 };
 
 struct Checks {
@@ -34,7 +33,7 @@ void print_json(const RepairArguments& a, const RepairReport& r, const Checks* c
     auto steps = nlohmann::ordered_json::array();
     for (const RepairStep& step : r.steps)
         steps.push_back({{"what", step.what}, {"count", step.count}});
-    nlohmann::ordered_json json{{"scene", a.scene},
+    nlohmann::ordered_json json{{"scene", a.mesh.scene},
                                 {"output", a.output},
                                 {"welded_vertices", r.welded},
                                 {"steps", steps},
@@ -86,8 +85,8 @@ int run(RepairArguments& a, const Common& common) {
     const bool polygons = holds_polygons(a.output);
     require_writable(a.output);
     Console console(common.quiet);
-    const Workers workers(a.threads);
-    const Scene scene = load_scene(a.scene, a.load, console);
+    const Workers workers(a.mesh.threads);
+    const Scene scene = load_scene(a.mesh.scene, {}, console);
     // STL and glTF hold floats: what is made has to be sound among these.
     a.repair.rounding = polygons ? Rounding::doubles : Rounding::floats;
     CheckOptions check;
@@ -98,12 +97,12 @@ int run(RepairArguments& a, const Common& common) {
     RepairedScene repaired = repair_scene(scene, a.repair, workers, console);
     if (console.stop_requested()) return ExitCode::interrupted;
     if (repaired.scene.polygons.empty())
-        throw InputError(a.scene, "no face with an area is left; accepted: at least one");
+        throw InputError(a.mesh.scene, "no face with an area is left; accepted: at least one");
     if (!polygons) triangulate_scene(repaired.scene);
     save_scene(repaired.scene, a.output, console);
     if (!a.no_check) checks.after = check_scene(repaired.scene, check, workers, console);
     console.end_progress();
-    (a.json ? print_json : print_text)(a, repaired.report, a.no_check ? nullptr : &checks);
+    (a.mesh.json ? print_json : print_text)(a, repaired.report, a.no_check ? nullptr : &checks);
     return ExitCode::done;
 }
 
@@ -113,14 +112,11 @@ void add_repair(CLI::App& program, const Common& common, int& exit_code) {
     auto a = std::make_shared<RepairArguments>();
     CLI::App* command = program.add_subcommand(
         "repair", "Make a scene's meshes sound, exactly, and say what was done");
-    command->add_option("SCENE", a->scene, "scene: .gltf .glb .obj .ply .stl .off")->required();
+    add_mesh_options(*command, a->mesh);
     command->add_option("-o,--output", a->output, "scene to write, of any of these formats")
         ->required();
     add_repair_options(*command, "--level", a->repair);
-    command->add_flag("--json", a->json, "machine-readable report");
     command->add_flag("--no-check", a->no_check, "don't count defects before and after");
-    command->add_option("--threads", a->threads, "0: as many as the machine has")
-        ->capture_default_str();
     command->footer(
         "Exit codes: 0 also where something harmful is left, which is told; 'check' of what was "
         "written exits with 3 then.");

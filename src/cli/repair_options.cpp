@@ -4,6 +4,21 @@
 
 namespace transillum::cli {
 
+void add_mesh_options(CLI::App& command, MeshOptions& options) {
+    add_scene_argument(command, options.scene);
+    command.add_flag("--json", options.json, "machine-readable report");
+    command.add_option("--threads", options.threads, "0: as many as the machine has")
+        ->capture_default_str();
+}
+
+CLI::Option* add_tolerance(CLI::App& command, double& tolerance, const std::string& what) {
+    return command
+        .add_option("--tolerance", tolerance,
+                    "distance over the scene's diagonal, within which " + what)
+        ->check(within(0.0, most_tolerance))
+        ->capture_default_str();
+}
+
 void add_repair_options(CLI::App& command, const std::string& level_name, RepairOptions& options) {
     const char* const group = "Repair";
     add_choice(
@@ -13,13 +28,8 @@ void add_repair_options(CLI::App& command, const std::string& level_name, Repair
         "neighbours; full: also closes cracks and cuts faces exactly where they meet. Passes "
         "run only where they find something")
         ->group(group);
-    command
-        .add_option(
-            "--tolerance", options.tolerance,
-            "distance over the scene's diagonal, within which cracks are closed, and faces that "
-            "overlap are taken for parts of one plane")
-        ->check(within(0.0, 1e-3))
-        ->capture_default_str()
+    add_tolerance(command, options.tolerance,
+                  "cracks are closed, and faces that overlap are taken for parts of one plane")
         ->group(group);
 }
 

@@ -14,16 +14,24 @@
 
 namespace transillum::cli {
 
-void add_scene_options(CLI::App& command, SceneOptions& options) {
-    command.add_option("SCENE", options.path, "scene: .gltf .glb .obj .ply .stl .off")->required();
-    add_choice(command, "--sides", options.load.sides,
+void add_scene_argument(CLI::App& command, std::string& path) {
+    command.add_option("SCENE", path, "scene: .gltf .glb .obj .ply .stl .off")->required();
+}
+
+void add_load_options(CLI::App& command, LoadOptions& options) {
+    add_choice(command, "--sides", options.sides,
                {{"file", Sides::file}, {"one", Sides::one}, {"two", Sides::two}},
                "which sides of a surface reflect and emit")
         ->group("Scene");
     command
-        .add_flag("--drop-transparent", options.load.drop_transparent,
+        .add_flag("--drop-transparent", options.drop_transparent,
                   "leave out transparent surfaces (else they are opaque)")
         ->group("Scene");
+}
+
+void add_scene_options(CLI::App& command, SceneOptions& options) {
+    add_scene_argument(command, options.path);
+    add_load_options(command, options.load);
     command
         .add_option("--max-albedo", options.max_albedo, "albedos above it are reduced, per channel")
         ->check(within(0.0, 1.0))

@@ -21,6 +21,11 @@ struct SceneOptions {
     LightingOptions lighting;
 };
 
+/// SCENE
+void add_scene_argument(CLI::App& command, std::string& path);
+/// --sides and --drop-transparent
+void add_load_options(CLI::App& command, LoadOptions& options);
+/// All of them.
 void add_scene_options(CLI::App& command, SceneOptions& options);
 
 /// Loads, limits the albedo and adds the lighting.

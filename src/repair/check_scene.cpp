@@ -74,6 +74,7 @@ TriangleSoup check_faces(const Scene& scene, const TriangleSoup& soup, const Che
                 sites.add_triangle(Defect::zero_area, t);
                 break;
             case FaceFault::duplicate:
+            case FaceFault::back:
                 sites.add_pair(Defect::duplicate_face, t, fault.first);
                 break;
             case FaceFault::opposite:

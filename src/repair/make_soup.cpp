@@ -1,14 +1,12 @@
-#include <transillum/base/error.h>
 #include <transillum/repair/triangle_soup.h>
+#include <transillum/scene/used_positions.h>
 
 #include "repair/exact/predicates.h"
 #include "repair/position_hash.h"
 #include "repair/triangulate.h"
-#include "repair/used_positions.h"
 
 #include <glm/geometric.hpp>
 
-#include <cmath>
 #include <unordered_map>
 
 namespace transillum {
@@ -55,22 +53,6 @@ void add_polygon(const Scene& scene, std::uint32_t number,
 }
 
 }  // namespace
-
-std::vector<bool> used_positions(const Scene& scene) {
-    std::vector<bool> used(scene.positions.size());
-    for (const Polygon& polygon : scene.polygons)
-        for (std::uint32_t c = 0; c < polygon.corner_count; ++c)
-            used[scene.corners[polygon.first_corner + c]] = true;
-    for (std::size_t i = 0; i < used.size(); ++i) {
-        const glm::dvec3& p = scene.positions[i];
-        if (used[i] && !(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)))
-            throw InputError(
-                scene.path,
-                "vertex " + std::to_string(i) +
-                    " has a coordinate that is no finite number; accepted: finite ones");
-    }
-    return used;
-}
 
 TriangleSoup make_soup(const Scene& scene, SoupCounts* counts) {
     SoupCounts met;

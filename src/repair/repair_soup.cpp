@@ -73,7 +73,7 @@ private:
     void drop_faulty_faces() {
         std::vector<FaultyFace> faults = find_faulty_faces(soup_, scene_);
         while (close_needles(faults)) faults = find_faulty_faces(soup_, scene_);
-        std::array<std::uint64_t, 5> counts{};
+        std::array<std::uint64_t, 6> counts{};
         for (std::size_t t = 0; t < faults.size(); ++t) {
             ++counts[static_cast<std::size_t>(faults[t].fault)];
             const bool both_sides =
@@ -85,7 +85,10 @@ private:
         if (counts[0] == faults.size()) return;
         std::size_t kept = 0;
         for (std::size_t t = 0; t < faults.size(); ++t) {
-            if (faults[t].fault != FaceFault::none) continue;
+            if (faults[t].fault == FaceFault::back)
+                turn(t);
+            else if (faults[t].fault != FaceFault::none)
+                continue;
             soup_.triangles[kept] = soup_.triangles[t];
             if (!soup_.uvs.empty()) soup_.uvs[kept] = soup_.uvs[t];
             ++kept;
@@ -96,6 +99,12 @@ private:
         told("dropped faces without area", counts[2]);
         told("dropped duplicate faces", counts[3]);
         told("merged faces wound both ways into one with two sides", counts[4]);
+        told("turned duplicates to be the backs of faces with black ones", counts[5]);
+    }
+
+    void turn(std::size_t t) {
+        std::swap(soup_.triangles[t].vertices[1], soup_.triangles[t].vertices[2]);
+        if (!soup_.uvs.empty()) std::swap(soup_.uvs[t][1], soup_.uvs[t][2]);
     }
 
     [[nodiscard]] bool share_material(std::size_t a, std::size_t b) const {
@@ -176,8 +185,9 @@ private:
             left = cut(left);
             if (left.size() < best.pairs) best = {soup_, report_, left.size()};
         }
-        if (best.pairs > 0) restore(best);
-        report_.pairs_left = best.pairs;
+        if (best.pairs == 0) return;
+        restore(best);
+        report_.pairs_left = find_pairs().size();  // all of them: best.pairs may be of a limit
     }
 
     /// A repair so far, to come back to.
@@ -305,8 +315,7 @@ private:
         for (std::size_t t = 0; t < flips.turn.size(); ++t) {
             if (!flips.turn[t]) continue;
             ++turned;
-            std::swap(soup_.triangles[t].vertices[1], soup_.triangles[t].vertices[2]);
-            if (!soup_.uvs.empty()) std::swap(soup_.uvs[t][1], soup_.uvs[t][2]);
+            turn(t);
         }
         told("turned faces against their neighbours", turned);
         const auto left = [&](const std::vector<bool>& which, const char* why) {

@@ -1,7 +1,6 @@
 #include <transillum/base/error.h>
 #include <transillum/repair/snap_grid.h>
-
-#include "repair/used_positions.h"
+#include <transillum/scene/used_positions.h>
 
 #include <glm/geometric.hpp>
 

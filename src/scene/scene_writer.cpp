@@ -3,6 +3,8 @@
 #include "scene/soup.h"
 #include "scene/text_reader.h"
 
+#include <transillum/scene/used_positions.h>
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -68,10 +70,7 @@ void SceneWriter::require_triangles() const {
 
 std::vector<glm::vec3> SceneWriter::float_positions() const {
     constexpr auto most = static_cast<double>(std::numeric_limits<float>::max());
-    std::vector<bool> used(scene.positions.size());
-    for (const Polygon& polygon : scene.polygons)
-        for (std::uint32_t c = 0; c < polygon.corner_count; ++c)
-            used[scene.corners[polygon.first_corner + c]] = true;
+    const std::vector<bool> used = used_positions(scene);
     std::vector<glm::vec3> rounded(scene.positions.size());
     double furthest = 0.0;
     for (std::size_t i = 0; i < rounded.size(); ++i) {

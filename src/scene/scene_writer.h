@@ -32,7 +32,7 @@ struct SceneWriter {
     /// \throws InputError naming a polygon of more than three corners.
     void require_triangles() const;
     /// Every position as a float, noting the furthest move. \throws InputError where one that a
-    /// polygon uses is larger than floats are.
+    /// polygon uses is no finite number or larger than floats are.
     [[nodiscard]] std::vector<glm::vec3> float_positions() const;
 
     /// Begins the names of files beside the main one: its stem, of characters that every format's

@@ -146,10 +146,6 @@ Decision refine(Solution& s, const BakeOptions& options, const Baker& baker, Mon
         limited ? "as many as allowed" : "until the tolerance was met, or the phases were over"};
 }
 
-}  // namespace
-
-namespace {
-
 /// Refinement and sub-patches try quarters of all leaves.
 void require_room_for_quarters(const BakeOptions& o) {
     const bool splits = o.refinement.phases > 0 || o.iteration.monte_carlo != MonteCarlo::off ||
@@ -160,10 +156,6 @@ void require_room_for_quarters(const BakeOptions& o) {
             "accepted with them: at most {}",
             o.subdivision.max_level, max_subdivision_level - 1));
 }
-
-}  // namespace
-
-namespace {
 
 /// What was done to the meshes, or why nothing was.
 std::vector<Decision> decisions_about(const RepairReport& report, RepairLevel level,

@@ -3,7 +3,7 @@
 #include "vtk_arrays.h"
 #include "vtk_bytes.h"
 
-#include <transillum/base/error.h>
+#include <transillum/base/staged_files.h>
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -12,22 +12,15 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <fstream>
-#include <system_error>
 
 namespace transillum {
 
 namespace {
 
 void write_vtp(vtkPolyData& data, const std::filesystem::path& path) {
-    const std::string bytes = to_vtp(data, path);
-    errno = 0;
-    std::ofstream out(path, std::ios::binary);
-    out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    out.close();
-    if (!out)
-        throw IoError(path.string(), "cannot write: " + std::generic_category().message(errno));
+    StagedFiles files(path);
+    files.write_main(to_vtp(data, path));
+    files.put_in_place();
 }
 
 /// VTK numbers cells vertices first, then lines, then polygons.

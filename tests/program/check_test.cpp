@@ -122,6 +122,8 @@ TEST_F(Check, WritesFilesWhereThereIsNothingToo) {
 TEST_F(Check, RefusesWhatItCannotUse) {
     write_cross();
     EXPECT_EQ(run("check cross.obj --needle nan").exit_code, usage);
+    EXPECT_EQ(run("check cross.obj --tolerance 1.1e-3").exit_code, usage);
+    EXPECT_NE(run("check cross.obj --tolerance 1e-3").exit_code, usage);
     EXPECT_EQ(run("check").exit_code, usage);
     EXPECT_EQ(run("check nothing.obj").exit_code, io_failed);
     EXPECT_EQ(run("check cross.obj --vtk no/folder.vtp").exit_code, io_failed);

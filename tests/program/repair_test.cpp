@@ -120,7 +120,7 @@ TEST_F(Repair, LeavesNothingBehindWhereItFails) {
     expect("repair torn.obj -o out/fixed.obj", bad_input, "torn.obj:3");
     expect("repair nothing.obj -o out/fixed.obj", io_failed, "nothing.obj");
     expect("repair dirty.obj -o out/fixed.obj --level most", usage, "--level");
-    expect("repair dirty.obj -o out/fixed.obj --tolerance 1", usage, "--tolerance");
+    expect("repair dirty.obj -o out/fixed.obj --tolerance 1.1e-3", usage, "--tolerance");
 }
 
 TEST_F(Repair, RefusesToWriteNothing) {

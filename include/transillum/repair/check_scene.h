@@ -12,7 +12,8 @@
 namespace transillum {
 
 struct CheckOptions {
-    double tolerance = 4e-7;   ///< near vertices and T-junctions, over the scene's diagonal
+    /// Over the scene's diagonal: of near vertices and T-junctions.
+    double tolerance = usual_tolerance;
     double needle = 1e-4;      ///< height over longest edge, below which a face is a needle
     double thin_wall = 1e-4;   ///< thickness over the diagonal, below which a wall is thin
     double leak_width = 0.01;  ///< over the diagonal; wider ways out are openings, not leaks

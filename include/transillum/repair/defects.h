@@ -43,6 +43,10 @@ inline constexpr std::size_t defect_count = 20;
 
 using DefectCounts = std::array<std::uint64_t, defect_count>;
 
+/// Of near vertices and T-junctions, over the scene's diagonal. Up to the most, few vertices have
+/// many near them: each is compared with all of these.
+inline constexpr double usual_tolerance = 4e-7, most_tolerance = 1e-3;
+
 /// Where a defect is: one vertex, an edge of two, or a triangle; nowhere (0) for polygons that give
 /// no triangle.
 struct DefectSite {

@@ -3,6 +3,7 @@
 
 #include <transillum/base/monitor.h>
 #include <transillum/base/parallel.h>
+#include <transillum/repair/defects.h>
 #include <transillum/repair/snap_grid.h>
 #include <transillum/scene/scene.h>
 
@@ -24,7 +25,7 @@ struct RepairOptions {
     Rounding rounding = Rounding::doubles;
     /// Over the scene's diagonal: of near vertices and T-junctions, of faces that overlap in one
     /// plane but for it, of edges that are collapsed where they make faces meet.
-    double tolerance = 4e-7;
+    double tolerance = usual_tolerance;
     bool close_cracks = true;  ///< full: join near vertices and T-junctions
     int rounds = 12;           ///< most times that rounding may be tried
 };

@@ -23,17 +23,27 @@ namespace transillum {
                                                           const std::vector<bool>& which,
                                                           double tolerance);
 
-enum class FaceFault : std::uint8_t { none, repeated_index, zero_area, duplicate, opposite };
+enum class FaceFault : std::uint8_t {
+    none,
+    repeated_index,
+    zero_area,
+    duplicate,
+    opposite,
+    back  ///< a duplicate that reflects from its back, where the face to keep is black
+};
 
 struct FaultyFace {
     FaceFault fault = FaceFault::none;
-    std::uint32_t first = 0;  ///< of a duplicate or opposite: the face to keep
+    std::uint32_t first = 0;  ///< of a duplicate, opposite or back: the face to keep
 };
 
 /// One entry a triangle. Zero area: three vertices exactly on one line, or so nearly that the cross
-/// product rounds to nothing. Of faces on the same three vertices an emitting one is kept before
-/// others, then the earliest; `opposite` needs the same material on both, others are walls of two
-/// materials and are told as `none`.
+/// product rounds to nothing. Of faces on the same three vertices, wound alike, an emitting one is
+/// kept before others, then one whose back emits, then one whose back reflects, then the earliest;
+/// `opposite` needs the same material on both, others are walls of two materials and are told as
+/// `none`. Where the back of what is kept is black, no face is wound the other way and a duplicate
+/// that emits nothing reflects from its back, the first such is told as `back`: turned, it is the
+/// other side of a wall of two materials.
 [[nodiscard]] std::vector<FaultyFace> find_faulty_faces(const TriangleSoup& soup,
                                                         const Scene& scene);
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 #include <tuple>
 
 namespace transillum {
@@ -12,18 +13,24 @@ namespace {
 /// A triangle by its vertices in ascending order.
 struct FaceKey {
     std::array<std::uint32_t, 3> sorted{};
-    bool turned = false;   ///< against that order
-    bool is_dark = false;  ///< does not emit
+    bool turned = false;  ///< against that order
+    bool is_dark = false, has_dark_back = false, has_black_back = false;
     std::uint32_t triangle = 0;
 };
+using Faces = std::span<const FaceKey>;
 
 FaceKey key_of(const TriangleSoup& soup, const Scene& scene, std::uint32_t triangle) {
     const SoupTriangle& t = soup.triangles[triangle];
-    FaceKey key{t.vertices, false, true, triangle};
+    const Material& material = scene.materials[scene.polygons[t.polygon].material];
+    FaceKey key;
+    key.sorted = t.vertices;
     std::rotate(key.sorted.begin(), std::ranges::min_element(key.sorted), key.sorted.end());
     key.turned = key.sorted[1] > key.sorted[2];
     if (key.turned) std::swap(key.sorted[1], key.sorted[2]);
-    key.is_dark = !scene.materials[scene.polygons[t.polygon].material].emits();
+    key.is_dark = !material.emits();
+    key.has_dark_back = key.is_dark || !(material.back_emits || t.both_sides);
+    key.has_black_back = !(material.back_reflects || t.both_sides);
+    key.triangle = triangle;
     return key;
 }
 
@@ -34,30 +41,23 @@ std::vector<FaceKey> sorted_faces(const TriangleSoup& soup, const Scene& scene) 
     keys.reserve(soup.triangles.size());
     for (std::uint32_t t = 0; t < soup.triangles.size(); ++t)
         if (!repeats_vertex(soup.triangles[t])) keys.push_back(key_of(soup, scene, t));
-    std::sort(keys.begin(), keys.end(), [](const FaceKey& a, const FaceKey& b) {
-        return std::tie(a.sorted, a.turned, a.is_dark, a.triangle) <
-               std::tie(b.sorted, b.turned, b.is_dark, b.triangle);
+    std::ranges::sort(keys, {}, [](const FaceKey& k) {
+        return std::tie(k.sorted, k.turned, k.is_dark, k.has_dark_back, k.has_black_back,
+                        k.triangle);
     });
     return keys;
 }
 
-/// Calls `visit(key, first)` for the ones after the first of each winding, and
-/// `both(first, first_turned)` where there are both windings.
-template <class Visit, class Both>
-void for_each_double(const std::vector<FaceKey>& keys, const Visit& visit, const Both& both) {
-    for (std::size_t i = 0; i < keys.size();) {
-        std::size_t end = i;
-        std::size_t first = i;
-        while (end < keys.size() && keys[end].sorted == keys[i].sorted) {
-            if (keys[end].turned != keys[first].turned) {
-                first = end;
-                both(keys[i].triangle, keys[first].triangle);
-            } else if (end != first) {
-                visit(keys[end].triangle, keys[first].triangle);
-            }
-            ++end;
-        }
-        i = end;
+/// Calls `visit` with the faces on the same vertices: those of one winding, those of the other.
+template <class Visit>
+void for_each_place(Faces keys, const Visit& visit) {
+    while (!keys.empty()) {
+        const auto begin = keys.begin();
+        const auto end =
+            std::ranges::find_if(keys, [&](const FaceKey& k) { return k.sorted != begin->sorted; });
+        const auto turned = std::find_if(begin, end, [](const FaceKey& k) { return k.turned; });
+        visit(Faces(begin, turned), Faces(turned, end));
+        keys = Faces(end, keys.end());
     }
 }
 
@@ -77,14 +77,24 @@ std::vector<FaultyFace> find_faulty_faces(const TriangleSoup& soup, const Scene&
     const auto set = [&](std::uint32_t t, FaceFault fault, std::uint32_t first) {
         if (faults[t].fault == FaceFault::none) faults[t] = {fault, first};
     };
-    std::vector<std::array<std::uint32_t, 2>> opposites;
-    for_each_double(
-        sorted_faces(soup, scene),
-        [&](std::uint32_t t, std::uint32_t first) { set(t, FaceFault::duplicate, first); },
-        [&](std::uint32_t a, std::uint32_t b) {
-            if (material(a) == material(b)) opposites.push_back({std::min(a, b), std::max(a, b)});
-        });
-    for (const auto& [first, later] : opposites) set(later, FaceFault::opposite, first);
+    const auto set_duplicates = [&](Faces faces, bool back_is_free) {
+        if (faces.empty()) return;
+        const FaceKey& first = faces.front();
+        back_is_free = back_is_free && first.has_black_back;
+        for (const FaceKey& k : faces.subspan(1)) {
+            const bool is_back = back_is_free && k.is_dark && !k.has_black_back;
+            set(k.triangle, is_back ? FaceFault::back : FaceFault::duplicate, first.triangle);
+            back_is_free = back_is_free && !is_back;
+        }
+    };
+    const std::vector<FaceKey> keys = sorted_faces(soup, scene);
+    for_each_place(keys, [&](Faces straight, Faces turned) {
+        set_duplicates(straight, turned.empty());
+        set_duplicates(turned, straight.empty());
+        if (straight.empty() || turned.empty()) return;
+        const auto [first, later] = std::minmax(straight.front().triangle, turned.front().triangle);
+        if (material(first) == material(later)) set(later, FaceFault::opposite, first);
+    });
     // Duplicates of a face that an opposite one stands for.
     for (FaultyFace& face : faults)
         if (face.fault == FaceFault::duplicate && faults[face.first].fault == FaceFault::opposite)
@@ -95,14 +105,15 @@ std::vector<FaultyFace> find_faulty_faces(const TriangleSoup& soup, const Scene&
 std::vector<std::array<std::uint32_t, 2>> find_two_material_walls(const TriangleSoup& soup,
                                                                   const Scene& scene) {
     std::vector<std::array<std::uint32_t, 2>> walls;
-    for_each_double(
-        sorted_faces(soup, scene), [](std::uint32_t, std::uint32_t) {},
-        [&](std::uint32_t a, std::uint32_t b) {
-            if (scene.polygons[soup.triangles[a].polygon].material !=
-                    scene.polygons[soup.triangles[b].polygon].material &&
-                has_area(soup, a))
-                walls.push_back({std::min(a, b), std::max(a, b)});
-        });
+    const std::vector<FaceKey> keys = sorted_faces(soup, scene);
+    for_each_place(keys, [&](Faces straight, Faces turned) {
+        if (straight.empty() || turned.empty()) return;
+        const auto [first, later] = std::minmax(straight.front().triangle, turned.front().triangle);
+        if (scene.polygons[soup.triangles[first].polygon].material !=
+                scene.polygons[soup.triangles[later].polygon].material &&
+            has_area(soup, first))
+            walls.push_back({first, later});
+    });
     std::ranges::sort(walls);
     return walls;
 }

@@ -55,24 +55,28 @@ private:
 
 class LeakSearch {
 public:
-    LeakSearch(const TriangleSoup& soup, const Scene& scene, double width, const Workers& workers)
+    LeakSearch(const TriangleSoup& soup, const Scene& scene, double width, const Workers& workers,
+               Monitor& monitor)
         : soup_(soup),
+          workers_(workers),
+          monitor_(monitor),
           tree_(soup),
           graph_(soup),
           diagonal_(diagonal_of(soup)),
           width_(width),
           sources_(find_leak_sources(soup, scene, tree_, 2.0 * diagonal_)),
-          ways_(find_ways(soup, tree_, graph_.find_parts(), 2.0 * diagonal_, workers)),
+          ways_(find_ways(soup, tree_, graph_.find_parts(), 2.0 * diagonal_, workers, monitor)),
           ways_of_(ways_, graph_.side_count()) {}
 
-    std::vector<Leak> run(Monitor& monitor) {
+    std::vector<Leak> run() {
         std::vector<std::optional<Leak>> found(sources_.size());
         std::vector<bool> is_done(sources_.size(), false);
         const int tries = graph_.side_count() > 500000 ? 4 : 48;
-        for (int i = 0; i < tries && !monitor.stop_requested(); ++i) {
+        bool is_closing = true;
+        for (int i = 0; i < tries && is_closing; ++i) {
             find_distances();
-            bool is_closing = false;
-            for (std::size_t s = 0; s < sources_.size(); ++s) {
+            is_closing = false;
+            for (std::size_t s = 0; s < sources_.size() && !monitor_.stop_requested(); ++s) {
                 if (is_done[s]) continue;
                 const std::vector<Step> steps = steps_from(sources_[s]);
                 std::optional<Leak> leak = follow(sources_[s], steps);
@@ -80,7 +84,6 @@ public:
                 if (leak && (!found[s] || leak->is_opening)) found[s] = std::move(leak);
                 is_closing |= !is_done[s];
             }
-            if (!is_closing) break;
         }
         std::vector<Leak> leaks;
         for (auto& leak : found)
@@ -111,7 +114,8 @@ private:
         for (std::uint32_t w = 0; w < ways_.size(); ++w)
             if (ways_[w].to == Way::outside && !closed_ways_.contains(w))
                 reach(ways_[w].from, ways_[w].length, {Way::outside, 3, w});
-        while (!open.empty()) {
+        for (std::uint64_t taken = 0; !open.empty(); ++taken) {
+            if (taken % 0x10000 == 0 && monitor_.stop_requested()) return;
             const auto [distance, side] = open.top();
             open.pop();
             if (distance > distance_[side]) continue;
@@ -225,8 +229,8 @@ private:
             if (!leak.path.empty()) leak.length += glm::length(p.position - leak.path.back());
             leak.path.push_back(p.position);
         }
-        const Gap gap =
-            narrowest_gap(soup_, tree_, graph_.border(), leak.path, width_, 1e-13 * diagonal_);
+        const Gap gap = narrowest_gap(soup_, tree_, graph_.border(), leak.path, width_,
+                                      1e-13 * diagonal_, workers_);
         leak.width = gap.width;
         leak.is_opening = !(gap.width < width_);
         if (narrow) *narrow = gap.place;
@@ -260,6 +264,8 @@ private:
     }
 
     const TriangleSoup& soup_;
+    const Workers& workers_;
+    Monitor& monitor_;
     TriangleTree tree_;
     SideGraph graph_;
     double diagonal_, width_;
@@ -276,8 +282,8 @@ private:
 
 std::vector<Leak> find_leaks(const TriangleSoup& soup, const Scene& scene, double width,
                              const Workers& workers, Monitor& monitor) {
-    if (soup.triangles.empty() || !has_leak_sources(scene)) return {};
-    return LeakSearch(soup, scene, width, workers).run(monitor);
+    if (soup.triangles.empty() || !has_leak_sources(scene) || monitor.stop_requested()) return {};
+    return LeakSearch(soup, scene, width, workers, monitor).run();
 }
 
 }  // namespace transillum

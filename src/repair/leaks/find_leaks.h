@@ -13,6 +13,7 @@ namespace transillum {
 /// found. Where a way is narrow it is closed and another one sought, up to a few dozen times. The
 /// narrow gaps of a scene that is open anyway are not looked for.
 /// \param width below which a gap is a leak [scene units]
+/// \returns where a stop is requested, only what was found before
 /// \pre triangles have area and meet in shared vertices and edges only
 [[nodiscard]] std::vector<Leak> find_leaks(const TriangleSoup& soup, const Scene& scene,
                                            double width, const Workers& workers, Monitor& monitor);

@@ -1,5 +1,7 @@
 #include "repair/leaks/gap_width.h"
 
+#include "repair/leaks/find_passes.h"
+
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
@@ -8,37 +10,14 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <tuple>
-#include <utility>
+#include <ranges>
+#include <vector>
 
 namespace transillum {
 
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-struct Nearest {
-    glm::dvec3 on_edge, on_path;
-    double distance = infinity;
-};
-
-/// Closest points of two segments (Ericson, Real-Time Collision Detection, 5.1.9).
-void approach(const glm::dvec3& p, const glm::dvec3& along_p, const glm::dvec3& q,
-              const glm::dvec3& along_q, Nearest& best) {
-    const glm::dvec3 r = p - q;
-    const double a = glm::dot(along_p, along_p), e = glm::dot(along_q, along_q);
-    const double b = glm::dot(along_p, along_q), c = glm::dot(along_p, r), f = glm::dot(along_q, r);
-    const double across = a * e - b * b;
-    double s = across > 1e-24 * a * e ? std::clamp((b * f - c * e) / across, 0.0, 1.0) : 0.5;
-    double t = e > 0.0 ? (b * s + f) / e : 0.0;
-    if (t < 0.0 || t > 1.0) {
-        t = std::clamp(t, 0.0, 1.0);
-        s = a > 0.0 ? std::clamp((b * t - c) / a, 0.0, 1.0) : 0.0;
-    }
-    const glm::dvec3 on_p = p + s * along_p, on_q = q + t * along_q;
-    const double distance = glm::length(on_p - on_q);
-    if (distance < best.distance) best = {on_p, on_q, distance};
-}
 
 /// The plane across an edge at a point of it: first axis away from the edge's face.
 struct Across {
@@ -111,75 +90,96 @@ bool shares_vertex(const TriangleSoup& soup, std::uint32_t triangle, std::uint32
                                [&](std::uint32_t v) { return v == a || v == b; });
 }
 
-Nearest approach(const TriangleSoup& soup, const SideGraph::BorderEdge& edge,
-                 std::span<const glm::dvec3> path) {
-    const auto& v = soup.triangles[edge.triangle].vertices;
-    const glm::dvec3& from = soup.positions[v[edge.corner]];
-    const glm::dvec3 along = soup.positions[v[(edge.corner + 1) % 3]] - from;
-    Nearest nearest;
-    for (std::size_t i = 0; i + 1 < path.size(); ++i)
-        approach(from, along, path[i], path[i + 1] - path[i], nearest);
-    return nearest;
-}
-
-/// How wide the gap is that the path passes at an edge, as far as the triangles tell that `visit`
-/// calls its argument with; infinite where it passes none.
-template <class Visit>
-double gap_at(const TriangleSoup& soup, const SideGraph::BorderEdge& edge, const Nearest& pass,
-              double touching, const Visit& visit) {
-    const auto& v = soup.triangles[edge.triangle].vertices;
-    const std::uint32_t a = v[edge.corner], b = v[(edge.corner + 1) % 3];
-    const glm::dvec3 along = glm::normalize(soup.positions[b] - soup.positions[a]);
-    const glm::dvec3 normal = glm::normalize(area_vector(soup, edge.triangle));
-    const Across plane{pass.on_edge, along, glm::cross(along, normal), normal};
-    Sector sector{{1.0, 0.0}, std::numbers::pi / 2.0};
-    if (pass.distance > touching) {
-        const glm::dvec2 to_path = plane.flat(pass.on_path);
+/// What lies ahead of an edge, past the path.
+class View {
+public:
+    View(const TriangleSoup& soup, const SideGraph::BorderEdge& edge, const Pass& pass,
+         double touching)
+        : soup_(soup), pass_(pass) {
+        const auto& v = soup.triangles[edge.triangle].vertices;
+        a_ = v[edge.corner];
+        b_ = v[(edge.corner + 1) % 3];
+        const glm::dvec3 along = glm::normalize(soup.positions[b_] - soup.positions[a_]);
+        const glm::dvec3 normal = glm::normalize(area_vector(soup, edge.triangle));
+        plane_ = {pass.on_edge, along, glm::cross(along, normal), normal};
+        if (pass.distance <= touching) return;
+        const glm::dvec2 to_path = plane_.flat(pass.on_path);
         const double length = glm::length(to_path);
         // Over an end of the edge, other edges are passed more closely.
-        if (to_path.x < -1e-9 * length || length < 0.5 * pass.distance) return infinity;
-        sector = {to_path / length, std::numbers::pi / 3.0};
+        is_empty_ = to_path.x < -1e-9 * length || length < 0.5 * pass.distance;
+        sector_ = {to_path / length, std::numbers::pi / 3.0};
     }
-    double width = infinity;
-    visit([&](std::uint32_t t) {
-        if (!shares_vertex(soup, t, a, b))
-            width = std::min(width, distance_to(soup, t, plane, sector));
+
+    [[nodiscard]] const Pass& pass() const { return pass_; }
+    /// Does the path not pass the edge?
+    [[nodiscard]] bool is_empty() const { return is_empty_; }
+    [[nodiscard]] double distance_to(std::uint32_t triangle) const {
+        return shares_vertex(soup_, triangle, a_, b_)
+                   ? infinity
+                   : transillum::distance_to(soup_, triangle, plane_, sector_);
+    }
+    /// How wide the gap is, by the nearest that is ahead; infinite where that is before the path.
+    [[nodiscard]] double width(double nearest) const {
+        return nearest < 0.999 * pass_.distance ? infinity : nearest;
+    }
+
+private:
+    const TriangleSoup& soup_;
+    Pass pass_;
+    std::uint32_t a_ = 0, b_ = 0;
+    Across plane_{};
+    Sector sector_{{1.0, 0.0}, std::numbers::pi / 2.0};
+    bool is_empty_ = false;
+};
+
+/// Of each view, the distance of the nearest of all triangles.
+std::vector<double> look_at_all(const TriangleSoup& soup, const std::vector<View>& views,
+                                const Workers& workers) {
+    std::vector<std::vector<double>> nearest(static_cast<std::size_t>(workers.count()),
+                                             std::vector<double>(views.size(), infinity));
+    workers.for_ranges(soup.triangles.size(), 1024, [&](std::size_t begin, std::size_t end, int w) {
+        std::vector<double>& mine = nearest[static_cast<std::size_t>(w)];
+        for (std::size_t t = begin; t < end; ++t)
+            for (std::size_t v = 0; v < views.size(); ++v)
+                mine[v] = std::min(mine[v], views[v].distance_to(static_cast<std::uint32_t>(t)));
     });
-    return width < 0.999 * pass.distance ? infinity : width;  // else it is before the path
+    for (const std::vector<double>& some : nearest)
+        std::ranges::transform(some, nearest.front(), nearest.front().begin(),
+                               [](double a, double b) { return std::min(a, b); });
+    return nearest.front();
 }
 
 }  // namespace
 
 Gap narrowest_gap(const TriangleSoup& soup, const TriangleTree& tree,
                   const std::vector<SideGraph::BorderEdge>& border,
-                  std::span<const glm::dvec3> path, double limit, double touching) {
+                  std::span<const glm::dvec3> path, double limit, double touching,
+                  const Workers& workers) {
     constexpr std::size_t most_measured = 16;
-    std::vector<std::pair<Nearest, std::size_t>> passes;
-    for (std::size_t i = 0; i < border.size(); ++i)
-        passes.emplace_back(approach(soup, border[i], path), i);
-    std::ranges::sort(passes, [](const auto& a, const auto& b) {
-        return std::tie(a.first.distance, a.second) < std::tie(b.first.distance, b.second);
-    });
+    const std::vector<Pass> passes = find_passes(soup, border, path, workers);
     Gap narrowest{infinity, {}};
-    const auto keep = [&](double width, const Nearest& pass) {
-        if (width < narrowest.width) narrowest = {width, pass.on_path};
+    const auto keep = [&](const View& view, double nearest) {
+        const double width = view.width(nearest);
+        if (width < narrowest.width) narrowest = {width, view.pass().on_path};
     };
-    for (const auto& [pass, edge] : passes) {
-        if (pass.distance >= std::min(narrowest.width, limit)) break;
-        const auto near = tree.near_to(pass.on_edge, std::min(narrowest.width, limit));
-        keep(gap_at(soup, border[edge], pass, touching,
-                    [&](const auto& look) { std::ranges::for_each(near, look); }),
-             pass);
+    for (const Pass& pass : passes) {
+        const double reach = std::min(narrowest.width, limit);
+        if (pass.distance >= reach) break;
+        const View view(soup, border[pass.edge], pass, touching);
+        if (view.is_empty()) continue;
+        double nearest = infinity;
+        for (const std::uint32_t t : tree.near_to(pass.on_edge, reach))
+            nearest = std::min(nearest, view.distance_to(t));
+        keep(view, nearest);
     }
     if (narrowest.width < limit) return narrowest;
-    for (std::size_t i = 0; i < std::min(passes.size(), most_measured); ++i) {
-        const auto& [pass, edge] = passes[i];
-        keep(gap_at(soup, border[edge], pass, touching,
-                    [&](const auto& look) {
-                        for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) look(t);
-                    }),
-             pass);
+    std::vector<View> views;
+    for (const Pass& pass : passes | std::views::take(most_measured)) {
+        views.emplace_back(soup, border[pass.edge], pass, touching);
+        if (views.back().is_empty()) views.pop_back();
     }
+    const std::vector<double> nearest = look_at_all(soup, views, workers);
+    for (std::size_t v = 0; v < views.size(); ++v) keep(views[v], nearest[v]);
     return narrowest;
 }
 

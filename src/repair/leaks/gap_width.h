@@ -4,6 +4,8 @@
 #include "repair/defects/triangle_tree.h"
 #include "repair/leaks/side_graph.h"
 
+#include <transillum/base/parallel.h>
+
 #include <span>
 
 namespace transillum {
@@ -22,6 +24,7 @@ struct Gap {
 /// \param touching distance below which the path touches the edge
 [[nodiscard]] Gap narrowest_gap(const TriangleSoup& soup, const TriangleTree& tree,
                                 const std::vector<SideGraph::BorderEdge>& border,
-                                std::span<const glm::dvec3> path, double limit, double touching);
+                                std::span<const glm::dvec3> path, double limit, double touching,
+                                const Workers& workers);
 
 }  // namespace transillum

@@ -35,11 +35,12 @@ Side side_met(const TriangleSoup& soup, std::uint32_t triangle, const glm::dvec3
 
 std::vector<Way> find_ways(const TriangleSoup& soup, const TriangleTree& tree,
                            const std::vector<std::uint32_t>& part, double reach,
-                           const Workers& workers) {
+                           const Workers& workers, const Monitor& monitor) {
     const std::vector<Side> starts = choose_starts(part);
-    std::vector<Way> ways(starts.size());
+    std::vector<Way> ways(starts.size(), Way{0, 0, 0.0});  // which are left out in the end
     workers.for_ranges(starts.size(), 256, [&](std::size_t begin, std::size_t end, int) {
         for (std::size_t i = begin; i < end; ++i) {
+            if (i % 256 == 0 && monitor.stop_requested()) break;
             const Side from = starts[i];
             const glm::dvec3 direction = reach * outward_of(soup, from);
             const auto hit = tree.first_hit(centre_of(soup, from / 2), direction,

@@ -4,6 +4,7 @@
 #include "repair/defects/triangle_tree.h"
 #include "repair/leaks/side_graph.h"
 
+#include <transillum/base/monitor.h>
 #include <transillum/base/parallel.h>
 
 namespace transillum {
@@ -23,8 +24,9 @@ struct Way {
 /// of few, from at most a few thousand, evenly chosen, of others. By `from`.
 /// \param part of every side, as SideGraph::find_parts
 /// \param reach length of a ray's direction; ways to outside are that long
+/// \returns where a stop is requested, only some of them
 [[nodiscard]] std::vector<Way> find_ways(const TriangleSoup& soup, const TriangleTree& tree,
                                          const std::vector<std::uint32_t>& part, double reach,
-                                         const Workers& workers);
+                                         const Workers& workers, const Monitor& monitor);
 
 }  // namespace transillum

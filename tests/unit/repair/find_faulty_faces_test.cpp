@@ -15,7 +15,7 @@ void expect_faults(const Scene& scene, const std::vector<FaultyFace>& expected) 
     ASSERT_EQ(found.size(), expected.size());
     for (std::size_t i = 0; i < found.size(); ++i) {
         EXPECT_EQ(found[i].fault, expected[i].fault) << i;
-        if (expected[i].fault == FaceFault::duplicate || expected[i].fault == FaceFault::opposite) {
+        if (expected[i].fault >= FaceFault::duplicate) {
             EXPECT_EQ(found[i].first, expected[i].first) << i;
         }
     }
@@ -61,6 +61,28 @@ TEST_P(FaultyFaces, AreNoWallsOfTwoMaterials) {
     const auto walls = find_two_material_walls(soup, made.scene);
     ASSERT_EQ(walls.size(), 1u);
     EXPECT_EQ(walls[0], (std::array<std::uint32_t, 2>{0, 1}));
+}
+
+// What reflects from its back is kept, or turned to stand for the back of what emits.
+TEST_P(FaultyFaces, TakeNoBackAway) {
+    const std::uint32_t one_sided = made.material(), lamp = made.material(1.0f);
+    made.scene.materials[one_sided].back_reflects = false;
+    made.polygon(triangle, one_sided);
+    made.polygon(rotated);
+    expect_faults(made.scene, {{FaceFault::duplicate, 1}, {FaceFault::none, 0}});
+    made.polygon(triangle, lamp);
+    expect_faults(made.scene,
+                  {{FaceFault::duplicate, 2}, {FaceFault::duplicate, 2}, {FaceFault::none, 0}});
+    made.scene.materials[lamp].back_reflects = false;
+    expect_faults(made.scene,
+                  {{FaceFault::duplicate, 2}, {FaceFault::back, 2}, {FaceFault::none, 0}});
+    made.polygon(triangle);
+    made.polygon(turned, one_sided);
+    expect_faults(made.scene, {{FaceFault::duplicate, 2},
+                               {FaceFault::duplicate, 2},
+                               {FaceFault::none, 0},
+                               {FaceFault::duplicate, 2},
+                               {FaceFault::none, 0}});
 }
 
 TRANSILLUM_AT_ALL_PLACES(FaultyFaces);

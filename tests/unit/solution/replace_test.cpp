@@ -2,6 +2,7 @@
 
 #include <transillum/base/error.h>
 #include <transillum/solution/load_solution.h>
+#include <transillum/solution/save_defects.h>
 
 #include <gmock/gmock.h>
 
@@ -90,6 +91,23 @@ TEST(Replace, FullDiskLeavesNothingBehind) {
     const FullDisk disk(100);
     expect_refused<IoError>(folder / "room.vtm", "cannot write: File too large");
     EXPECT_TRUE(fs::is_empty(folder));
+}
+
+TEST(Replace, FullDiskLeavesTheOlderDefectsWhole) {
+    const auto folder = fresh_folder();
+    const fs::path path = folder / "leaks.vtp";
+    save_leaks({}, path);
+    const auto before = files_below(folder);
+    const Leak leak{"lamp", std::vector<glm::dvec3>(2, glm::dvec3(1.0)), 1.0, 1.0, false};
+    {
+        const FullDisk disk(100);
+        EXPECT_THROW(save_leaks({leak}, path), IoError);
+    }
+    EXPECT_EQ(files_below(folder), before);
+    save_leaks({leak}, path);
+    EXPECT_EQ(files_below(folder).size(), 1u);
+    EXPECT_NE(files_below(folder), before);
+    EXPECT_THROW(save_leaks({leak}, folder / "no" / "leaks.vtp"), IoError);
 }
 
 TEST(Replace, MissingParent) {
