@@ -109,8 +109,10 @@ void check_cracks(const TriangleSoup& soup, double tolerance, DefectSites& sites
     }
     std::vector<TJunction> junctions = find_t_junctions(soup, tolerance);
     std::ranges::stable_sort(junctions, {}, &TJunction::vertex);
-    const auto rest = std::ranges::unique(junctions, {}, &TJunction::vertex);
-    junctions.erase(rest.begin(), rest.end());
+    const auto is_same = [](const TJunction& a, const TJunction& b) {
+        return a.vertex == b.vertex;
+    };
+    junctions.erase(std::unique(junctions.begin(), junctions.end(), is_same), junctions.end());
     for (const TJunction& t : junctions) {
         std::vector<std::uint32_t> triangles{t.triangle};
         for (const std::uint32_t corner : corners[t.vertex]) triangles.push_back(corner / 3);

@@ -3,7 +3,9 @@
 
 #include <transillum/base/sampling.h>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
 
 #include <algorithm>
 #include <array>
@@ -42,19 +44,23 @@ public:
         const glm::dvec3 from = cell_of(p - tolerance_), to = cell_of(p + tolerance_);
         std::uint32_t best = none;
         double best_distance = tolerance_;
-        for (double x = from.x; x <= to.x; ++x)
-            for (double y = from.y; y <= to.y; ++y)
-                for (double z = from.z; z <= to.z; ++z) {
-                    const auto at = first_.find(key_of({x, y, z}));
-                    if (at == first_.end()) continue;
-                    for (std::uint32_t v = at->second; v != none; v = next_[v]) {
-                        const double d = glm::length(positions_[v] - p);
-                        if (d > best_distance || (d == best_distance && v > best)) continue;
-                        if (!accepts(v)) continue;
-                        best = v;
-                        best_distance = d;
-                    }
-                }
+        // Cells are wider than what is near, so these are all; counting from one to the other would
+        // never end where they are too large for a double to count.
+        for (unsigned corner = 0; corner < 8; ++corner) {
+            const glm::bvec3 other(corner & 1u, corner & 2u, corner & 4u);
+            if (glm::any(glm::bvec3(other.x && from.x == to.x, other.y && from.y == to.y,
+                                    other.z && from.z == to.z)))
+                continue;
+            const auto at = first_.find(key_of(glm::mix(from, to, other)));
+            if (at == first_.end()) continue;
+            for (std::uint32_t v = at->second; v != none; v = next_[v]) {
+                const double d = glm::length(positions_[v] - p);
+                if (d > best_distance || (d == best_distance && v > best)) continue;
+                if (!accepts(v)) continue;
+                best = v;
+                best_distance = d;
+            }
+        }
         return best;
     }
 

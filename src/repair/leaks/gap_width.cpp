@@ -10,7 +10,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <ranges>
 #include <vector>
 
 namespace transillum {
@@ -174,7 +173,7 @@ Gap narrowest_gap(const TriangleSoup& soup, const TriangleTree& tree,
     }
     if (narrowest.width < limit) return narrowest;
     std::vector<View> views;
-    for (const Pass& pass : passes | std::views::take(most_measured)) {
+    for (const Pass& pass : std::span(passes).first(std::min(passes.size(), most_measured))) {
         views.emplace_back(soup, border[pass.edge], pass, touching);
         if (views.back().is_empty()) views.pop_back();
     }

@@ -79,6 +79,17 @@ TEST_P(ShortEdges, AreNotAcrossCracks) {
               all_of(6));
 }
 
+// Cells of the search are then more than doubles can count.
+TEST_P(NearVertices, AreSoughtWithinTheLeastOfTolerances) {
+    made.polygon({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+    made.polygon({{1, 1, 0}, {2, 1, 0}, {1, 2, 0}});
+    const TriangleSoup soup = make_soup(made.scene);
+    for (const double tolerance : {1e-20, 1e-300}) {
+        const auto taken = find_near_vertices(soup, tolerance * GetParam().scale);
+        for (std::uint32_t v = 0; v < taken.size(); ++v) EXPECT_EQ(taken[v], v);
+    }
+}
+
 TRANSILLUM_AT_ALL_PLACES(NearVertices);
 TRANSILLUM_AT_ALL_PLACES(ShortEdges);
 
