@@ -7,6 +7,7 @@
 #include <transillum/base/error.h>
 #include <transillum/solution/bake.h>
 #include <transillum/solution/bake_bands.h>
+#include <transillum/solution/load_solution.h>
 #include <transillum/solution/save_solution.h>
 
 #include <fmt/format.h>
@@ -30,7 +31,7 @@ struct BakeArguments {
     BakeOptions bake;
     SpectralArguments spectral;
     double memory = 0.0;
-    bool keep_phases = false;
+    bool keep_phases = false, again = false;
     int threads = 0;
 };
 
@@ -39,6 +40,10 @@ void add_options(CLI::App& command, BakeArguments& a) {
     add_spectral_options(command, a.spectral);
     command.add_option("-o,--output", a.output, "solution to write, NAME.vtm (and a folder NAME)")
         ->required()
+        ->group("Output");
+    command
+        .add_flag("--again", a.again,
+                  "bake even where OUTPUT is the solution of this scene and these options already")
         ->group("Output");
 
     auto& iteration = a.bake.iteration;
@@ -240,6 +245,14 @@ int run(BakeArguments& a, const Common& common) {
     RunRecord record;
     record.command_line = common.command_line;
     const auto spectral = make_spectral_options(a.spectral, a.scene.max_albedo, scene);
+    if (!a.again && !a.keep_phases && !spectral)
+        if (const auto solution = find_baked(a.output, hash_input(scene, a.bake))) {
+            console.note(a.output +
+                         ": unchanged: it was baked from this scene and these options (--again "
+                         "bakes anew)");
+            print_summary(*solution, a.output);
+            return ExitCode::done;
+        }
     SpectralSolution baked;
     if (spectral)
         baked = bake_bands(scene, *spectral, a.bake, workers, console, &record);

@@ -33,33 +33,32 @@ void note_decisions(const Solution& s, Monitor& monitor) {
     for (const Decision& d : s.decisions) monitor.note(d.what + ": " + d.why);
 }
 
-void record_settings(const BakeOptions& o, Solution& s) {
+std::vector<std::pair<std::string, std::string>> settings_of(const BakeOptions& o) {
     const char* const shots[] = {"auto", "off", "hemicube", "vectors"};
     const char* const averagings[] = {"balanced", "paper", "none"};
     const char* const residuals[] = {"auto", "off", "subpatch", "wavefront"};
     const char* const repairs[] = {"off", "safe", "full"};
-    s.settings = {
-        {"repair", repairs[static_cast<int>(o.repair.level)]},
-        {"repair-tolerance", fmt::format("{}", o.repair.tolerance)},
-        {"patch-size", fmt::format("{}", o.subdivision.patch_size)},
-        {"leaves", fmt::format("{}", o.subdivision.leaf_target)},
-        {"max-level", fmt::format("{}", o.subdivision.max_level)},
-        {"crease-angle", fmt::format("{}", o.surface.crease_angle)},
-        {"first-shot", shots[static_cast<int>(o.light.first_shot)]},
-        {"light-samples", fmt::format("{}", o.light.samples)},
-        {"hemicube", fmt::format("{}", o.hemicube_resolution)},
-        {"resolution", fmt::format("{}", o.resolution)},
-        {"iterations", fmt::format("{}", o.iteration.iterations)},
-        {"target-error", fmt::format("{}", o.iteration.target_error)},
-        {"time", fmt::format("{}", o.iteration.seconds)},
-        {"monte-carlo", residuals[static_cast<int>(o.iteration.monte_carlo)]},
-        {"refine", fmt::format("{}", o.refinement.phases)},
-        {"refine-tolerance", fmt::format("{}", o.refinement.tolerance)},
-        {"max-leaves", fmt::format("{}", o.refinement.max_leaves)},
-        {"refine-for", o.refinement.direct ? "stored" : "traced"},
-        {"averaging", averagings[static_cast<int>(o.iteration.averaging)]},
-        {"brdf-bins", o.bins.level < 0 ? "auto" : fmt::format("{}", bin_count(o.bins.level))},
-        {"seed", fmt::format("{}", o.seed)}};
+    return {{"repair", repairs[static_cast<int>(o.repair.level)]},
+            {"repair-tolerance", fmt::format("{}", o.repair.tolerance)},
+            {"patch-size", fmt::format("{}", o.subdivision.patch_size)},
+            {"leaves", fmt::format("{}", o.subdivision.leaf_target)},
+            {"max-level", fmt::format("{}", o.subdivision.max_level)},
+            {"crease-angle", fmt::format("{}", o.surface.crease_angle)},
+            {"first-shot", shots[static_cast<int>(o.light.first_shot)]},
+            {"light-samples", fmt::format("{}", o.light.samples)},
+            {"hemicube", fmt::format("{}", o.hemicube_resolution)},
+            {"resolution", fmt::format("{}", o.resolution)},
+            {"iterations", fmt::format("{}", o.iteration.iterations)},
+            {"target-error", fmt::format("{}", o.iteration.target_error)},
+            {"time", fmt::format("{}", o.iteration.seconds)},
+            {"monte-carlo", residuals[static_cast<int>(o.iteration.monte_carlo)]},
+            {"refine", fmt::format("{}", o.refinement.phases)},
+            {"refine-tolerance", fmt::format("{}", o.refinement.tolerance)},
+            {"max-leaves", fmt::format("{}", o.refinement.max_leaves)},
+            {"refine-for", o.refinement.direct ? "stored" : "traced"},
+            {"averaging", averagings[static_cast<int>(o.iteration.averaging)]},
+            {"brdf-bins", o.bins.level < 0 ? "auto" : fmt::format("{}", bin_count(o.bins.level))},
+            {"seed", fmt::format("{}", o.seed)}};
 }
 
 /// Directions of the first phase: enough for every patch to be met from all around, and to tell its
@@ -194,7 +193,7 @@ Layout lay_out_solution(const RepairedScene& sound, const BakeOptions& options, 
     s.seed = options.seed;
     s.cameras = scene.cameras;
     s.lighting = scene.lighting;
-    record_settings(options, s);
+    s.settings = settings_of(options);
     s.surface = build_surface(scene, options.surface, monitor);
     SnapGrid& grid = s.surface.grid;
     grid.largest_move = std::max(grid.largest_move, sound.report.snapped_by);
@@ -207,6 +206,10 @@ Layout lay_out_solution(const RepairedScene& sound, const BakeOptions& options, 
     if (options.refinement.phases > 0)
         layout.decisions.push_back(refine(s, options, baker, monitor, layout.refined));
     return layout;
+}
+
+std::string hash_input(const Scene& scene, const BakeOptions& options) {
+    return hash_input(scene, settings_of(options));
 }
 
 Solution bake(const Scene& scene, const BakeOptions& options, const Workers& workers,
@@ -225,6 +228,7 @@ Solution bake(const Scene& scene, const BakeOptions& options, const Workers& wor
              "the phases took half as many"});
     baker.run(s, layout.refined, std::max(options.iteration.iterations, least));
     s.decisions.insert(s.decisions.begin(), layout.decisions.begin(), layout.decisions.end());
+    s.input_hash = hash_input(scene, options);
     warn_of_sharp_lobes(s, monitor);
     note_decisions(s, monitor);
     if (run) run->threads = workers.count();

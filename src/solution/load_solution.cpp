@@ -106,6 +106,19 @@ Solution load_solution(const Path& path) {
     return load(Pieces(path), path);
 }
 
+std::optional<Solution> find_baked(const Path& path, const std::string& input_hash) {
+    if (!std::filesystem::exists(path)) return std::nullopt;
+    try {
+        const Pieces pieces(path);
+        Solution summary;
+        read_summary(*pieces.read("surface")->GetFieldData(), pieces.file("surface"), summary);
+        if (summary.interrupted || summary.input_hash != input_hash) return std::nullopt;
+        return load(pieces, path);
+    } catch (const Error&) {
+        return std::nullopt;
+    }
+}
+
 SpectralSolution load_spectral_solution(const Path& path) {
     const Pieces pieces(path);
     SpectralSolution spectral{load(pieces, path), 0, {}};

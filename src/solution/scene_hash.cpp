@@ -26,6 +26,26 @@ public:
         add(std::uint64_t{values.size()});
         for (const T& value : values) add(value);
     }
+    void add(const std::string& text) {
+        add(std::uint64_t{text.size()});
+        for (const char c : text) add(static_cast<std::uint64_t>(static_cast<unsigned char>(c)));
+    }
+    void add(const Polygon& p) {
+        for (const std::uint32_t i :
+             {p.first_corner, p.corner_count, p.material, p.object, p.source_face})
+            add(std::uint64_t{i});
+    }
+    void add(const Camera& c) {
+        add(c.name);
+        add(c.eye);
+        add(c.look_at);
+        add(c.up);
+        add(c.vertical_fov);
+    }
+    void add(const std::pair<std::string, std::string>& setting) {
+        add(setting.first);
+        add(setting.second);
+    }
     void add(const Texture& t) {
         add(static_cast<std::uint64_t>(t.width) << 32 | static_cast<std::uint64_t>(t.height));
         add(static_cast<std::uint64_t>(t.wrap_u) << 8 | static_cast<std::uint64_t>(t.wrap_v));
@@ -56,6 +76,10 @@ public:
         add(l.photometry->horizontal);
         add(l.photometry->candela);
     }
+    void add(const Lighting& l) {
+        add(l.lights);
+        add(l.environment);
+    }
     void add(const Environment& e) {
         add(static_cast<std::uint64_t>(e.kind));
         add(e.radiance_scale);
@@ -82,8 +106,25 @@ std::string hash_scene(const SurfaceMesh& mesh, const Lighting& lighting) {
     h.add(mesh.uvs);
     h.add(mesh.materials);
     for (const auto& texture : mesh.textures) h.add(*texture);
-    h.add(lighting.lights);
-    h.add(lighting.environment);
+    h.add(lighting);
+    return h.text();
+}
+
+std::string hash_input(const Scene& scene,
+                       const std::vector<std::pair<std::string, std::string>>& settings) {
+    SceneHash h;
+    h.add(std::string(TRANSILLUM_VERSION));
+    h.add(settings);
+    h.add(scene.positions);
+    for (const std::uint32_t c : scene.corners) h.add(std::uint64_t{c});
+    h.add(scene.uvs);
+    h.add(scene.polygons);
+    h.add(scene.materials);
+    for (const Material& m : scene.materials) h.add(m.name);
+    for (const auto& texture : scene.textures) h.add(*texture);
+    h.add(scene.objects);
+    h.add(scene.cameras);
+    h.add(scene.lighting);
     return h.text();
 }
 

@@ -41,6 +41,26 @@ TEST_F(Results, DoNotDependOnTheNumberOfThreads) {
     }
 }
 
+TEST_F(Results, AreFoundAgainWhereNothingChanged) {
+    bake_cornell("box.vtm");
+    const auto written = [&] {
+        return std::filesystem::last_write_time(folder_ / "box" / "radiance.vtp");
+    };
+    const auto before = written();
+    const std::string command = std::string("bake ") + cornell + " -o box.vtm" + coarse;
+    const Outcome same = run(command + "--threads 1");
+    EXPECT_EQ(same.exit_code, 0) << same.err;
+    EXPECT_NE(same.err.find("unchanged"), std::string::npos) << same.err;
+    EXPECT_NE(same.out.find("32 iterations"), std::string::npos) << same.out;
+    EXPECT_EQ(written(), before);
+    for (const char* option : {"--again", "--seed 2", "--max-albedo 0.5"}) {
+        const Outcome other = run(command + option);
+        EXPECT_EQ(other.exit_code, 0) << other.err;
+        EXPECT_EQ(other.err.find("unchanged"), std::string::npos) << option;
+        EXPECT_NE(written(), before) << option;
+    }
+}
+
 TEST_F(Results, OfRefinedPatchesDoNotDependOnTheNumberOfThreads) {
     const std::string options = "--refine 2 --refine-tolerance 0.3 --threads ";
     bake_cornell("one.vtm", options + "1");

@@ -13,6 +13,7 @@
 #include <transillum/transport/iterate.h>
 
 #include <functional>
+#include <string>
 
 namespace transillum {
 
@@ -51,5 +52,8 @@ struct BakeOptions {
 /// the tables would need more memory than is allowed.
 [[nodiscard]] Solution bake(const Scene& scene, const BakeOptions& options, const Workers& workers,
                             Monitor& monitor, RunRecord* run = nullptr);
+
+/// What bake keeps as Solution::input_hash.
+[[nodiscard]] std::string hash_input(const Scene& scene, const BakeOptions& options);
 
 }  // namespace transillum

@@ -6,6 +6,8 @@
 #include <transillum/solution/spectral_solution.h>
 
 #include <filesystem>
+#include <optional>
+#include <string>
 
 namespace transillum {
 
@@ -13,6 +15,11 @@ namespace transillum {
 /// another format; IoError when it cannot be read. Values are checked: finite, in range, indices
 /// within bounds.
 [[nodiscard]] Solution load_solution(const std::filesystem::path& path);
+
+/// The finished solution that lies at `path` if it was baked from this input; nothing where there
+/// is none, it was interrupted, is damaged or of another input or format. \pre hash not empty
+[[nodiscard]] std::optional<Solution> find_baked(const std::filesystem::path& path,
+                                                 const std::string& input_hash);
 
 /// With its groups of bands; without any where it was baked in RGB. \throws as load_solution, also
 /// where groups are missing or are not of this solution.

@@ -160,12 +160,13 @@ TEST_F(Damage, ForeignFiles) {
 TEST_F(Damage, AnotherFormat) {
     std::string text = files_.at("room.vtm");
     const std::string format = "transillum_format=\"";
-    text.replace(text.find(format) + format.size(), 1, "1");
-    write(path_, text);
-    expect_refused("room.vtm", "written by format 1, this program reads format 2");
-    text.replace(text.find(format) + format.size(), 1, "3");
-    write(path_, text);
-    expect_refused("room.vtm", "written by format 3, this program reads format 2");
+    for (const int other : {solution_format_version - 1, solution_format_version + 1}) {
+        text.replace(text.find(format) + format.size(), 1, std::to_string(other));
+        write(path_, text);
+        expect_refused("room.vtm", "written by format " + std::to_string(other) +
+                                       ", this program reads format " +
+                                       std::to_string(solution_format_version));
+    }
 }
 
 TEST_F(Damage, MissingBlock) {
