@@ -54,11 +54,16 @@ Bundle BundleTransfer::bundle(std::uint64_t i) {
     return sample_bundle(static_cast<std::uint32_t>(order_.at(i)), seed_);
 }
 
+void BundleTransfer::make_buffer(const PatchHierarchy& cells) {
+    seconds_ += buffer_->seconds();
+    buffer_ = std::make_unique<TransilluminationBuffer>(mesh_, cells, pixel_size());
+}
+
 void BundleTransfer::represent(MonteCarlo representation, Carried carried) {
     residual_ = representation == MonteCarlo::subpatch
                     ? make_subpatch_component(patches_, carried, workers_)
                     : make_wavefront_component(mesh_, patches_, carried, workers_);
-    buffer_ = std::make_unique<TransilluminationBuffer>(mesh_, residual_->cells(), pixel_size());
+    make_buffer(residual_->cells());
 }
 
 void BundleTransfer::carry(MonteCarlo representation, Carried carried,
@@ -75,7 +80,7 @@ void BundleTransfer::carry_no_more(std::uint64_t next) {
     norms_.resize(patches_.patch_count());
     for (std::uint32_t slot = 0; slot < norms_.size(); ++slot)
         norms_[slot] = residual_->norms(slot);
-    buffer_ = std::make_unique<TransilluminationBuffer>(mesh_, patches_, pixel_size());
+    make_buffer(patches_);
     residual_.reset();
     reflections_ = {};
     headroom_ = 1.0f;

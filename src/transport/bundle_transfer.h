@@ -47,9 +47,14 @@ public:
     [[nodiscard]] ResidualNorms norms(std::uint32_t patch) const;
 
     [[nodiscard]] double pixel_size() const { return buffer_->pixel_size(); }
+    [[nodiscard]] StageSeconds seconds() const {
+        StageSeconds sum = seconds_;
+        return sum += buffer_->seconds();
+    }
 
 private:
     void represent(MonteCarlo representation, Carried carried);
+    void make_buffer(const PatchHierarchy& cells);
 
     const SurfaceMesh& mesh_;
     const PatchHierarchy& patches_;
@@ -64,6 +69,7 @@ private:
     Bundle last_;
     std::uint64_t carried_ = 0;
     float headroom_ = 1.0f;
+    StageSeconds seconds_;  ///< of buffers that are gone
 };
 
 }  // namespace transillum

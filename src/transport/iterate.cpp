@@ -263,6 +263,7 @@ private:
         result.relative_error = std::isfinite(error) ? error : 1.0;
         result.interrupted = interrupted_;
         result.fragments = exchange_.fragments();
+        result.seconds = transfer_.seconds();
         // A direction sees a patch of area A under A/2 on average.
         const double pixel_area = transfer_.pixel_size() * transfer_.pixel_size();
         result.escaped = component_.escaped() * (2.0 * std::numbers::pi * pixel_area);

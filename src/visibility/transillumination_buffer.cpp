@@ -89,7 +89,8 @@ TransilluminationBuffer::~TransilluminationBuffer() = default;
 void TransilluminationBuffer::project(const Bundle& bundle, const Workers& workers) {
     constexpr std::size_t grain = 4096;
     std::vector<Bounds> partial((mesh_.positions.size() + grain - 1) / grain);
-    workers.for_ranges(partial.size(), 1, [&](std::size_t begin, std::size_t end, int) {
+    workers.for_ranges(partial.size(), 1, [&](std::size_t begin, std::size_t end, int worker) {
+        StageClock clock;
         for (std::size_t r = begin; r < end; ++r) {
             Bounds b;
             for (std::size_t i = r * grain; i < std::min((r + 1) * grain, mesh_.positions.size());
@@ -100,6 +101,7 @@ void TransilluminationBuffer::project(const Bundle& bundle, const Workers& worke
             }
             partial[r] = b;
         }
+        clock.lap(scratch_[worker].seconds.project);
     });
     Bounds b;
     for (const Bounds& p : partial) {
@@ -119,19 +121,23 @@ void TransilluminationBuffer::project(const Bundle& bundle, const Workers& worke
     height_ = static_cast<int>(std::ceil((b.high.y - b.low.y) / pixel_size_)) + 2;
     tiles_x_ = (width_ + tile_size - 1) / tile_size;
     tiles_y_ = (height_ + tile_size - 1) / tile_size;
-    workers.for_ranges(mesh_.positions.size(), grain, [&](std::size_t begin, std::size_t end, int) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const glm::dvec3 q = mesh_.positions[i] * bundle.frame;
-            projected_[i] = {static_cast<std::int32_t>(std::lrint(q.x * scale + shift.x)),
-                             static_cast<std::int32_t>(std::lrint(q.y * scale + shift.y)),
-                             depth_margin + (q.z - b.low.z) * depth_scale};
-        }
-    });
+    workers.for_ranges(
+        mesh_.positions.size(), grain, [&](std::size_t begin, std::size_t end, int worker) {
+            StageClock clock;
+            for (std::size_t i = begin; i < end; ++i) {
+                const glm::dvec3 q = mesh_.positions[i] * bundle.frame;
+                projected_[i] = {static_cast<std::int32_t>(std::lrint(q.x * scale + shift.x)),
+                                 static_cast<std::int32_t>(std::lrint(q.y * scale + shift.y)),
+                                 depth_margin + (q.z - b.low.z) * depth_scale};
+            }
+            clock.lap(scratch_[worker].seconds.project);
+        });
 }
 
 void TransilluminationBuffer::bin(const Workers& workers) {
     const std::size_t tiles = static_cast<std::size_t>(tiles_x_) * tiles_y_;
-    workers.for_ranges(bins_.size(), 1, [&](std::size_t begin, std::size_t end, int) {
+    workers.for_ranges(bins_.size(), 1, [&](std::size_t begin, std::size_t end, int worker) {
+        StageClock clock;
         for (std::size_t set = begin; set < end; ++set) {
             Bins& bins = bins_[set];
             if (bins.size() < tiles) bins.resize(tiles);
@@ -153,20 +159,22 @@ void TransilluminationBuffer::bin(const Workers& workers) {
                             static_cast<std::uint32_t>(t));
             }
         }
+        clock.lap(scratch_[worker].seconds.bin);
     });
 }
 
 void TransilluminationBuffer::trace(const Bundle& bundle, const Workers& workers,
                                     const Visitor& visit) {
+    scratch_.resize(std::max<std::size_t>(scratch_.size(), workers.count()));
     project(bundle, workers);
     bin(workers);
-    scratch_.resize(std::max<std::size_t>(scratch_.size(), workers.count()));
     workers.for_ranges(static_cast<std::size_t>(tiles_x_) * tiles_y_, 1,
                        [&](std::size_t begin, std::size_t end, int worker) {
+                           Scratch& s = scratch_[worker];
                            for (std::size_t tile = begin; tile < end; ++tile) {
-                               Scratch& s = scratch_[worker];
                                fill_tile(static_cast<int>(tile), s);
                                if (s.count == 0) continue;
+                               StageClock clock;
                                visit({s.rect.x1 - s.rect.x0,
                                       s.rect.y1 - s.rect.y0,
                                       s.rect.y0,
@@ -174,8 +182,15 @@ void TransilluminationBuffer::trace(const Bundle& bundle, const Workers& workers
                                       s.first,
                                       {s.sorted.data(), s.count}},
                                      worker);
+                               clock.lap(s.seconds.visit);
                            }
                        });
+}
+
+StageSeconds TransilluminationBuffer::seconds() const {
+    StageSeconds sum;
+    for (const Scratch& s : scratch_) sum += s.seconds;
+    return sum;
 }
 
 }  // namespace transillum

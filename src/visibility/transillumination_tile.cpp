@@ -171,8 +171,10 @@ void TransilluminationBuffer::fill_tile(int tile, Scratch& scratch) const {
     const int pixels = (scratch.rect.x1 - x0) * (scratch.rect.y1 - y0);
     std::fill_n(scratch.first.begin(), pixels + 1, 0u);
     scratch.count = 0;
+    StageClock clock;
     for (const Bins& bins : bins_)
         for (const std::uint32_t root : bins[tile]) draw(root, scratch.rect, scratch);
+    clock.lap(scratch.seconds.rasterize);
     if (scratch.count == 0) return;
 
     // Counting sort by pixel. While filling, first[i] runs from the start of list i to its end,
@@ -192,6 +194,7 @@ void TransilluminationBuffer::fill_tile(int tile, Scratch& scratch) const {
     for (int i = 0; i < pixels; ++i)
         if (first[i + 1] - first[i] > 1)
             sort_list(sorted + first[i], sorted + first[i + 1], x0 + i % width, y0 + i / width);
+    clock.lap(scratch.seconds.sort);
 }
 
 }  // namespace transillum

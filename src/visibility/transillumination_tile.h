@@ -30,6 +30,7 @@ struct TransilluminationBuffer::Scratch {
     std::vector<std::uint32_t> first =
         std::vector<std::uint32_t>(tile_size * tile_size + 1 + block);
     std::size_t count = 0;
+    StageSeconds seconds;
 
     /// Makes room for a triangle that covers the tile.
     void reserve() {

@@ -8,6 +8,7 @@
 #include <transillum/geometry/surface_mesh.h>
 #include <transillum/scene/environment.h>
 #include <transillum/transport/glossy_sides.h>
+#include <transillum/visibility/stage_seconds.h>
 
 #include <cstdint>
 #include <functional>
@@ -105,6 +106,7 @@ struct TransportResult {
     SpectrumSum escaped{0.0};     ///< flux that left the scene [radiance * sr * square scene units]
     SpectrumSum entered{0.0};     ///< flux that came in from the environment, likewise
     std::uint64_t fragments = 0;  ///< exchanged, over all directions
+    StageSeconds seconds;         ///< of threads, in the transillumination buffer
 
     std::shared_ptr<const IterationSums> sums;  ///< where they were to be kept
 

@@ -9,6 +9,7 @@
 #include <transillum/base/parallel.h>
 #include <transillum/geometry/patch_hierarchy.h>
 #include <transillum/geometry/surface_mesh.h>
+#include <transillum/visibility/stage_seconds.h>
 
 #include <glm/mat3x3.hpp>
 
@@ -96,6 +97,8 @@ public:
     [[nodiscard]] int window_height() const { return height_; }
     /// Of the last bundle; of the one being traced, for a visitor.
     [[nodiscard]] const WindowTransform& window() const { return window_; }
+    /// Since it was made.
+    [[nodiscard]] StageSeconds seconds() const;
 
 private:
     struct Scratch;
