@@ -64,14 +64,19 @@ bool TransilluminationBuffer::are_coplanar(std::uint32_t root_a, std::uint32_t r
 
 /// The order of two fragments whose 31 bits of depth all but agree. Vertices were moved within the
 /// window, not in depth, so the depths of coinciding surfaces differ a little: there their keys
-/// decide, elsewhere their planes do.
+/// decide, elsewhere their planes do. Planes that meet right at the pixel's centre, as on the
+/// outline of whatever is closed, part a little beside it: where the top-left rule takes it to be.
 bool TransilluminationBuffer::is_behind(Fragment a, Fragment b, int x, int y) const {
     const std::uint32_t root_a = patches_.root_of_leaf[leaf_of(a)],
                         root_b = patches_.root_of_leaf[leaf_of(b)];
-    const double distance = depth_plane(root_a).at(x, y) - depth_plane(root_b).at(x, y);
-    if (std::abs(distance) <= depth_rounding || are_coplanar(root_a, root_b))
-        return static_cast<std::uint32_t>(a) > static_cast<std::uint32_t>(b);
-    return distance > 0.0;
+    const Plane plane_a = depth_plane(root_a), plane_b = depth_plane(root_b);
+    const double distance = plane_a.at(x, y) - plane_b.at(x, y);
+    if (!are_coplanar(root_a, root_b)) {
+        if (std::abs(distance) > depth_rounding) return distance > 0.0;
+        for (const double slope : {plane_a.dx - plane_b.dx, plane_a.dy - plane_b.dy})
+            if (std::abs(slope) > depth_rounding) return slope > 0.0;
+    }
+    return static_cast<std::uint32_t>(a) > static_cast<std::uint32_t>(b);
 }
 
 /// Lists are short: insertion sort.

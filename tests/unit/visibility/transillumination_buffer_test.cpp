@@ -82,20 +82,28 @@ std::vector<Closed> closed_surfaces() {
     return all;
 }
 
+/// Sampled ones, and some whose outlines run through the centres of pixels, where both sides lie in
+/// one point: there the lowest vertices are, and what is parallel to the y axis stays upright.
+std::vector<Bundle> bundles_on_outlines() {
+    std::vector<Bundle> all;
+    for (std::uint32_t i = 0; i < 256; ++i) all.push_back(sample_bundle(i, 1));
+    for (std::uint32_t i = 0; i < 64; ++i) {
+        const double c = std::cos(0.1 * (i + 0.5)), s = std::sin(0.1 * (i + 0.5));
+        all.push_back({{{c, 0, -s}, {0, 1, 0}, {s, 0, c}}});
+        all.push_back({{{0, 1, 0}, {-c, 0, s}, {s, 0, c}}});
+    }
+    return all;
+}
+
 TEST(TransilluminationBuffer, ListsOfClosedSurfacesAlternate) {
     const Workers workers(2);
     for (const Closed& closed : closed_surfaces()) {
         const PatchHierarchy patches = uniform_levels(closed.mesh, 1);
         TransilluminationBuffer buffer(closed.mesh, patches, 1.0 / 100.0);
-        std::uint64_t wrong = 0, lists = 0, outline = 0;
-        for (std::uint32_t i = 0; i < 256; ++i)
-            for_lists(buffer, sample_bundle(i, 1), workers, [&](PixelList list) {
+        std::uint64_t wrong = 0, lists = 0;
+        for (const Bundle& bundle : bundles_on_outlines())
+            for_lists(buffer, bundle, workers, [&](PixelList list) {
                 ++lists;
-                // On the outline itself both sides lie in one point, and ties break by facing.
-                if (list.size() == 2 && (list[1] >> 32) - (list[0] >> 32) < 2) {
-                    outline += front_faces_forwards(list[0]) != front_faces_forwards(list[1]);
-                    return;
-                }
                 // What is met first shows its outer side, against the direction.
                 bool forwards = closed.facing == Facing::inwards;
                 bool right = list.size() % 2 == 0;
@@ -106,7 +114,6 @@ TEST(TransilluminationBuffer, ListsOfClosedSurfacesAlternate) {
                 wrong += !right;
             });
         EXPECT_GT(lists, 100000u) << closed.name;
-        EXPECT_LT(outline, 10u) << closed.name;
         EXPECT_EQ(wrong, 0u) << closed.name << " of " << lists;
     }
 }
