@@ -13,7 +13,7 @@ BakeOptions few_patches() {
     options.subdivision.leaf_target = 1000;
     options.resolution = 200;
     options.hemicube_resolution = 128;
-    options.iteration.monte_carlo = MonteCarlo::automatic;
+    options.iteration.monte_carlo = MonteCarlo::off;
     return options;
 }
 
