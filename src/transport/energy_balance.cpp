@@ -12,6 +12,9 @@ namespace {
 
 /// A cluster met less often is left as it is: shares of so few fragments say nothing.
 constexpr double least_fragments = 64.0;
+/// Likewise one that light met less often, of which transfers are a sample: only some rows of
+/// pixels, and none from before the last restart.
+constexpr double least_lit_fragments = 8.0 * least_fragments;
 /// No balance scales by more than this at once.
 constexpr double largest_factor = 32.0;
 
@@ -22,6 +25,14 @@ struct ClusterState {
     SpectrumSum reflected{0.0};
     SpectrumSum source{0.0};
     SpectrumSum albedo{0.0};
+    // Sums over the patches' fragments of what arrived, and of its square.
+    SpectrumSum arrived{0.0}, arrived_squared{0.0};
+
+    /// As many fragments that bring light alike would tell as much.
+    [[nodiscard]] double lit_fragments(int channel) const {
+        const double squared = arrived_squared[channel];
+        return squared > 0.0 ? arrived[channel] * arrived[channel] / squared : 0.0;
+    }
 };
 
 std::vector<ClusterState> measure_clusters(const FiniteElementComponent& component,
@@ -32,7 +43,10 @@ std::vector<ClusterState> measure_clusters(const FiniteElementComponent& compone
         if (c == 0.0) continue;
         ClusterState& s = states[clusters.of_patch[p]];
         s.coverage += c;
-        s.incoming += c * component.incoming(p);
+        const SpectrumSum incoming = component.incoming(p);
+        s.incoming += c * incoming;
+        s.arrived += component.fragments(p) * incoming;
+        s.arrived_squared += component.fragments(p) * incoming * incoming;
         s.reflected += c * component.reflected(p);
         s.source += c * component.source(p);
         s.albedo += c * component.mean_albedo(p);
@@ -130,7 +144,8 @@ void balance_energy(FiniteElementComponent& component, const Clusters& clusters,
             if (fragments[i] < least_fragments) continue;
             const double now =
                 states[i].coverage > 0.0 ? states[i].incoming[channel] / states[i].coverage : 0.0;
-            if (now > 0.0 && incoming[i] > 0.0)
+            const bool is_told = states[i].lit_fragments(channel) >= least_lit_fragments;
+            if (is_told && now > 0.0 && incoming[i] > 0.0)
                 factor[i][channel] =
                     std::clamp(incoming[i] / now, 1.0 / largest_factor, largest_factor);
         }
