@@ -240,9 +240,10 @@ private:
 
     TransportResult finish() {
         // Within the phase after a restart there is too little to do without what came before; and
-        // between powers of two the last directions are not in balance yet.
+        // between powers of two the last directions are not in balance yet. But transfers from
+        // before the first balance were of light that had only begun to spread.
         if (!balances_at(done_)) recall();
-        if (options_.averaging == Averaging::balanced && done_ > first_balance &&
+        if (options_.averaging == Averaging::balanced && done_ > 2 * first_balance &&
             !balances_at(done_))
             balance();
         TransportResult result;
