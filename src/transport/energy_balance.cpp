@@ -127,10 +127,35 @@ std::vector<double> solve_channel(const std::vector<ClusterState>& states,
     return incoming;
 }
 
+/// No radiance that arrives exceeds the largest source over 1 - albedo; of lobes, whose albedo
+/// depends on the angle, nothing is said.
+SpectrumSum largest_incoming(const FiniteElementComponent& component, float brightest_environment) {
+    SpectrumSum source(brightest_environment), albedo(0.0);
+    for (std::uint32_t p = 0; p < component.patch_count(); ++p) {
+        source = glm::max(source, component.source(p));
+        albedo = glm::max(albedo, component.mean_albedo(p));
+    }
+    const SpectrumSum unbounded(std::numeric_limits<double>::infinity());
+    return component.is_glossy() ? unbounded
+                                 : glm::mix(source / (1.0 - albedo), unbounded,
+                                            glm::greaterThanEqual(albedo, SpectrumSum(1.0)));
+}
+
+/// As much of a factor as leaves what arrives below the bound.
+SpectrumSum limited(const SpectrumSum& factor, const SpectrumSum& incoming,
+                    const SpectrumSum& bound) {
+    SpectrumSum f = factor;
+    for (int c = 0; c < channel_count; ++c)
+        if (f[c] > 1.0 && f[c] * incoming[c] > bound[c])
+            f[c] = std::max(1.0, bound[c] / incoming[c]);
+    return f;
+}
+
 }  // namespace
 
 void balance_energy(FiniteElementComponent& component, const Clusters& clusters,
-                    const ClusterTransfer& transfer, BalanceShape shape) {
+                    const ClusterTransfer& transfer, BalanceShape shape,
+                    float brightest_environment) {
     const std::vector<ClusterState> states = measure_clusters(component, clusters);
     std::vector<double> fragments(clusters.count);
     for (std::uint32_t j = 0; j < clusters.count; ++j)
@@ -150,10 +175,11 @@ void balance_energy(FiniteElementComponent& component, const Clusters& clusters,
                     std::clamp(incoming[i] / now, 1.0 / largest_factor, largest_factor);
         }
     }
+    const SpectrumSum bound = largest_incoming(component, brightest_environment);
     for (std::uint32_t p = 0; p < component.patch_count(); ++p) {
         const std::uint32_t i = clusters.of_patch[p];
         if (shape == BalanceShape::kept) {
-            component.scale_incoming(p, factor[i]);
+            component.scale_incoming(p, limited(factor[i], component.incoming(p), bound));
             continue;
         }
         if (fragments[i] < least_fragments) continue;

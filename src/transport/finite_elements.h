@@ -106,6 +106,7 @@ public:
     [[nodiscard]] SpectrumSum source(std::uint32_t patch) const;
     /// Reflected share of uniform light.
     [[nodiscard]] SpectrumSum mean_albedo(std::uint32_t patch) const;
+    [[nodiscard]] bool is_glossy() const { return !glossy_.empty(); }
     /// Incoming radiance of glossy sides by bin, as glossy_sides.h lays it out.
     [[nodiscard]] std::vector<Spectrum> glossy_values();
 

@@ -36,6 +36,7 @@ struct Condition {
     double albedo = 0.9;
     std::uint64_t directions = 0;  ///< 0: as many as the effort says
     int seeds = 0;                 ///< likewise
+    bool is_balanced = true;       ///< else too few directions for energy to have settled
     bool is_long = false;          ///< left out of the short matrix
 };
 

@@ -13,12 +13,11 @@ namespace {
 void add_drift(std::vector<Condition>& to) {
     for (const std::uint64_t directions : {std::uint64_t{1} << 14, std::uint64_t{1'000'000}})
         for (const Lit lit : {Lit::evenly, Lit::from_floor}) {
-            Condition c{.name = fmt::format("{} directions, lit {}", directions,
-                                            lit == Lit::evenly ? "evenly" : "from the floor"),
+            Condition c{.name = fmt::format("{} directions, {}", directions, name_of(lit)),
                         .scene = [=](std::uint64_t) { return room(0.9f, lit); },
                         .options = few_patches(),
                         .directions = directions,
-                        .seeds = 2,
+                        .seeds = 3,
                         .is_long = directions > 100'000};
             c.options.subdivision.leaf_target = 50;
             c.options.resolution = 32;
@@ -29,11 +28,16 @@ void add_drift(std::vector<Condition>& to) {
 
 /// Few directions leave every estimate noisy.
 void add_noise(std::vector<Condition>& to) {
-    for (const std::uint64_t directions : {1, 7, 9, 16, 33})
-        to.push_back({.name = fmt::format("{} directions", directions),
-                      .scene = [=](std::uint64_t) { return room(0.9f, Lit::evenly); },
-                      .options = few_patches(),
-                      .directions = directions});
+    for (const std::uint64_t directions : {1, 7, 8, 9, 15, 16, 33, 64, 65})
+        for (const Lit lit : {Lit::evenly, Lit::from_floor}) {
+            Condition c{.name = fmt::format("{} directions, {}", directions, name_of(lit)),
+                        .scene = [=](std::uint64_t) { return room(0.9f, lit); },
+                        .options = few_patches(),
+                        .directions = directions,
+                        .is_balanced = directions >= 8};
+            if (lit == Lit::evenly && directions >= 8) c.closed_form = even_radiance();
+            to.push_back(c);
+        }
 }
 
 Scene one_triangle_in_the_sky() {
@@ -52,7 +56,7 @@ void add_depth(std::vector<Condition>& to) {
                     .closed_form = even_radiance(),
                     .albedo = 0.5,
                     .directions = 64,
-                    .seeds = 2,
+                    .seeds = 3,
                     .is_long = level > 8};
         c.options.subdivision.patch_size = 1.5 / (1 << level);
         c.options.subdivision.max_level = level;
@@ -81,7 +85,7 @@ void add_refinement(std::vector<Condition>& to) {
                         },
                     .options = few_patches(),
                     .albedo = 0.5,
-                    .seeds = phases > 4 ? 2 : 0,
+                    .seeds = phases > 4 ? 3 : 0,
                     .is_long = phases > 4};
         c.options.subdivision.leaf_target = 50;
         c.options.subdivision.max_level = max_subdivision_level - 1;

@@ -13,7 +13,7 @@ BakeOptions few_patches() {
     options.subdivision.leaf_target = 1000;
     options.resolution = 200;
     options.hemicube_resolution = 128;
-    options.iteration.monte_carlo = MonteCarlo::off;
+    options.iteration.monte_carlo = MonteCarlo::automatic;
     return options;
 }
 
@@ -25,13 +25,19 @@ std::vector<Condition> all_conditions() {
     return all;
 }
 
+std::string name_of(Lit lit) {
+    const char* const names[] = {"lit evenly", "lit from the floor", "lit from what is in it"};
+    return names[static_cast<int>(lit)];
+}
+
 Scene room(float albedo, Lit lit, const Filling& filling, std::uint64_t seed) {
     SceneBuilder b;
-    const bool evenly = lit == Lit::evenly;
-    const Spectrum emission(evenly ? 1.0f - albedo : 0.0f);
-    const std::uint32_t solid = b.material(Spectrum(albedo), emission);
-    const std::uint32_t sheet = b.material(Spectrum(albedo), emission);
-    const std::uint32_t floor = b.material(Spectrum(albedo), evenly ? emission : Spectrum(1.0f));
+    const auto material = [&](Lit where) {
+        const float emission = lit == Lit::evenly ? 1.0f - albedo : lit == where ? 1.0f : 0.0f;
+        return b.material(Spectrum(albedo), Spectrum(emission));
+    };
+    const std::uint32_t solid = material(Lit::evenly), floor = material(Lit::from_floor);
+    const std::uint32_t sheet = material(Lit::from_filling);
     for (const std::uint32_t m : {solid, floor}) b.scene.materials[m].back_reflects = false;
     b.scene.materials[sheet].back_emits = true;
     b.box({0, 0, 0}, {1, 1, 1}, Facing::inwards, solid);
@@ -40,21 +46,17 @@ Scene room(float albedo, Lit lit, const Filling& filling, std::uint64_t seed) {
     return b.scene;
 }
 
-bool is_seen(const Solution& s, std::uint32_t patch) {
-    return s.coverage[patch] > 0.0f;
-}
-
 ClosedForm even_radiance(double radiance) {
     return {[radiance](const Solution& s) {
-        double furthest = 0.0;
+        double sum = 0.0, fragments = 0.0;
         for (std::uint32_t p = 0; p < s.patches.patch_count(); ++p) {
-            if (!s.emits(p) || !is_seen(s, p)) continue;
+            if (!s.emits(p) || s.coverage[p] == 0.0f) continue;
             const SpectrumSum there(s.emission(p) + s.direct_radiance(p) +
                                     s.finite_element_radiance(p));
-            for (int c = 0; c < channel_count; ++c)
-                furthest = std::max(furthest, std::abs(there[c] / radiance - 1.0));
+            sum += s.coverage[p] * max_channel(glm::abs(there / radiance - 1.0));
+            fragments += s.coverage[p];
         }
-        return furthest;
+        return sum / fragments;
     }};
 }
 

@@ -17,18 +17,17 @@ using Filling = std::function<void(testing_support::SceneBuilder& builder,
                                    const RoomMaterials& materials, std::uint64_t seed)>;
 
 enum class Lit {
-    evenly,      ///< what reflects emits 1 - albedo: every radiance is 1 (validation A1)
-    from_floor,  ///< the floor emits 1: energy is all there is to tell
+    evenly,        ///< what reflects emits 1 - albedo: every radiance is 1 (validation A1)
+    from_floor,    ///< the floor emits 1: energy is all there is to tell
+    from_filling,  ///< the same of what stands in the room, on both sides
 };
+[[nodiscard]] std::string name_of(Lit lit);
 
 /// The inside of the unit cube, black from outside. \param filling may be empty
 [[nodiscard]] Scene room(float albedo, Lit lit, const Filling& filling = {},
                          std::uint64_t seed = 1);
 
-/// Largest deviation from an even radiance of what emits and was seen.
+/// Deviation from an even radiance of what emits, mean over all that was seen.
 [[nodiscard]] ClosedForm even_radiance(double radiance = 1.0);
-
-/// What no direction met is black.
-[[nodiscard]] bool is_seen(const Solution& solution, std::uint32_t patch);
 
 }  // namespace transillum::stability

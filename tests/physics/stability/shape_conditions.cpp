@@ -178,7 +178,7 @@ ClosedForm irradiance(double radiance_of_sky) {
     return {[=](const Solution& s) {
         double furthest = 0.0;
         for (std::uint32_t p = 0; p < s.patches.patch_count(); ++p)
-            if (is_seen(s, p))
+            if (s.coverage[p] > 0.0f && s.reflects(p))
                 furthest = std::max(
                     furthest,
                     std::abs(s.indirect_irradiance[p].x * std::numbers::inv_pi - radiance_of_sky));
@@ -205,9 +205,10 @@ public:
             add(name, lit, [=](std::uint64_t seed) { return room(albedo, lit, filling, seed); });
     }
     void add(const std::string& name, Lit lit, std::function<Scene(std::uint64_t)> scene) {
-        Condition& c = add(name + (lit == Lit::evenly ? ", lit evenly" : ", lit from the floor"),
-                           std::move(scene));
-        if (lit == Lit::evenly) c.closed_form = even_radiance();
+        Condition& c = add(name + ", " + name_of(lit), std::move(scene));
+        if (lit != Lit::evenly) return;
+        c.closed_form = even_radiance();
+        c.options.light.first_shot = FirstShot::off;
     }
     Condition& add(const std::string& name, std::function<Scene(std::uint64_t)> scene) {
         all.push_back({.name = name,
