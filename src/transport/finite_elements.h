@@ -97,7 +97,8 @@ public:
     void set_incoming(std::uint32_t patch, const SpectrumSum& incoming);
     /// Since the average was begun.
     [[nodiscard]] int blocks() const { return blocks_; }
-    /// Squared standard error of `incoming`, from the spread of the blocks; NaN for fewer than 4.
+    /// Squared standard error of `incoming`, from the spread of the blocks; NaN for fewer
+    /// than 4, or where hardly more than one met the patch.
     [[nodiscard]] SpectrumSum incoming_variance(std::uint32_t patch) const;
 
     /// Mean radiance that a patch reflects of `incoming`, weighted with the cosine.

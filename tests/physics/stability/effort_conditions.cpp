@@ -72,7 +72,7 @@ void sheet_under_lamp(SceneBuilder& b, const RoomMaterials& m, std::uint64_t) {
 }
 
 void add_refinement(std::vector<Condition>& to) {
-    for (const int phases : {4, 7}) {
+    for (const int phases : {3, 7}) {
         Condition c{.name = fmt::format("{} phases of refinement", phases),
                     .scene =
                         [](std::uint64_t seed) {
@@ -85,14 +85,14 @@ void add_refinement(std::vector<Condition>& to) {
                         },
                     .options = few_patches(),
                     .albedo = 0.5,
-                    .seeds = phases > 4 ? 3 : 0,
-                    .is_long = phases > 4};
+                    .seeds = phases > 3 ? 3 : 0,
+                    .is_long = phases > 3};
         c.options.subdivision.leaf_target = 50;
         c.options.subdivision.max_level = max_subdivision_level - 1;
         c.options.refinement.phases = phases;
-        c.options.refinement.tolerance = 0.01;
-        c.options.refinement.max_leaves = phases > 4 ? 1u << 20 : 1u << 13;
-        c.options.resolution = phases > 4 ? 0 : 200;
+        c.options.refinement.tolerance = 0.02;
+        c.options.refinement.max_leaves = phases > 3 ? 1u << 20 : 1u << 11;
+        c.options.resolution = phases > 3 ? 0 : 128;
         to.push_back(c);
     }
 }

@@ -10,9 +10,9 @@ using namespace testing_support;
 
 BakeOptions few_patches() {
     BakeOptions options;
-    options.subdivision.leaf_target = 1000;
-    options.resolution = 200;
-    options.hemicube_resolution = 128;
+    options.subdivision.leaf_target = 300;
+    options.resolution = 128;
+    options.hemicube_resolution = 64;
     options.iteration.monte_carlo = MonteCarlo::automatic;
     return options;
 }

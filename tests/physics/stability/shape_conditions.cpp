@@ -47,7 +47,7 @@ void needles(SceneBuilder& b, const RoomMaterials& m, std::uint64_t seed) {
 
 void slivers(SceneBuilder& b, const RoomMaterials& m, std::uint64_t seed) {
     Random random(seed, 2);
-    for (int i = 0; i < 300; ++i) {
+    for (int i = 0; i < 100; ++i) {
         const glm::dvec3 at = random_point(random, 0.2);
         const glm::dmat3 f = random_frame(random);
         b.polygon({at - 0.15 * f[2], at + 0.15 * f[2], at + 1e-3 * f[0]}, m.sheet);
@@ -204,6 +204,11 @@ public:
         for (const Lit lit : {Lit::evenly, Lit::from_floor})
             add(name, lit, [=](std::uint64_t seed) { return room(albedo, lit, filling, seed); });
     }
+    /// By a first shot, for each is small.
+    void lit_by_itself(const std::string& name, const Filling& filling) {
+        add("first shot of " + name,
+            [=](std::uint64_t seed) { return room(albedo, Lit::from_filling, filling, seed); });
+    }
     void add(const std::string& name, Lit lit, std::function<Scene(std::uint64_t)> scene) {
         Condition& c = add(name + ", " + name_of(lit), std::move(scene));
         if (lit != Lit::evenly) return;
@@ -226,8 +231,48 @@ public:
             all.push_back(c);
         }
     }
+    void make_long(std::size_t count) {
+        for (std::size_t i = all.size() - count; i < all.size(); ++i) all[i].is_long = true;
+    }
     std::vector<Condition> all;
 };
+
+void add_stacks(Shapes& s) {
+    s.in_both_lights("stack of 100 equal faces", equal_stack);
+    s.also_without_repair(2);
+    s.in_both_lights("stack of 100 nested faces", nested_stack);
+    s.also_without_repair(2);
+    s.make_long(2);
+    s.in_both_lights("stack of 100 turned faces", turned_stack);
+    s.make_long(2);
+}
+
+void add_tiny(Shapes& s) {
+    for (const int meridians : {100, 1000})
+        s.in_both_lights(
+            fmt::format("{} triangles in a pixel", 2 * meridians * (meridians / 2 - 1)),
+            [=](SceneBuilder& b, const RoomMaterials& m, std::uint64_t) {
+                tiny_sphere(b, m, meridians);
+            });
+    s.make_long(2);
+}
+
+void add_large(Shapes& s) {
+    for (const Lit lit : {Lit::evenly, Lit::from_floor})
+        s.add("a room of four triangles", lit, [=](std::uint64_t) { return tetrahedron(lit); });
+    s.add("a triangle that fills the scene", [](std::uint64_t) { return on_a_large_ground(); });
+}
+
+void add_open(Shapes& s) {
+    for (const float sky : {0.0f, 1.0f}) {
+        const std::string where = sky > 0.0f ? " in the sky" : "";
+        s.add("a triangle alone" + where, [=](std::uint64_t) {
+             return alone(1.0f - sky, sky);
+         }).closed_form = irradiance(double{sky});
+        s.add("fully open" + where, [=](std::uint64_t) { return convex(sky); }).closed_form =
+            irradiance(double{sky});
+    }
+}
 
 }  // namespace
 
@@ -237,35 +282,17 @@ std::vector<Condition> shape_conditions() {
     s.also_without_repair(2);
     s.in_both_lights("slivers at every angle", slivers);
     s.in_both_lights("faces edge-on to directions", edge_on_squares);
-    s.in_both_lights("stack of 100 equal faces", equal_stack);
-    s.in_both_lights("stack of 100 nested faces", nested_stack);
-    s.also_without_repair(4);
-    s.in_both_lights("stack of 100 turned faces", turned_stack);
+    s.lit_by_itself("slivers", slivers);
+    s.lit_by_itself("crossing squares", edge_on_squares);
+    add_stacks(s);
     s.in_both_lights("shells 1e-5 apart", shells);
     s.all.back().closed_form = dark_inside_shells();
     s.also_without_repair(2);
     for (const Lit lit : {Lit::evenly, Lit::from_floor})
         s.add("T-junctions", lit, [=](std::uint64_t) { return t_junctioned(lit); });
-    for (const int meridians : {100, 1000}) {
-        s.in_both_lights(
-            fmt::format("{} triangles in a pixel", 2 * meridians * (meridians / 2 - 1)),
-            [=](SceneBuilder& b, const RoomMaterials& m, std::uint64_t) {
-                tiny_sphere(b, m, meridians);
-            });
-        if (meridians < 1000) continue;
-        for (std::size_t i = s.all.size() - 2; i < s.all.size(); ++i) s.all[i].is_long = true;
-    }
-    for (const Lit lit : {Lit::evenly, Lit::from_floor})
-        s.add("a room of four triangles", lit, [=](std::uint64_t) { return tetrahedron(lit); });
-    s.add("a triangle that fills the scene", [](std::uint64_t) { return on_a_large_ground(); });
-    s.add("a triangle alone", [](std::uint64_t) { return alone(1.0f, 0.0f); }).closed_form =
-        irradiance(0.0);
-    s.add("a triangle alone in the sky", [](std::uint64_t) {
-         return alone(0.0f, 1.0f);
-     }).closed_form = irradiance(1.0);
-    s.add("fully open", [](std::uint64_t) { return convex(0.0f); }).closed_form = irradiance(0.0);
-    s.add("fully open in the sky", [](std::uint64_t) { return convex(1.0f); }).closed_form =
-        irradiance(1.0);
+    add_tiny(s);
+    add_large(s);
+    add_open(s);
     return s.all;
 }
 

@@ -9,11 +9,11 @@
 
 namespace transillum::stability {
 
-namespace {
-
 void PrintTo(const Condition& condition, std::ostream* out) {
     *out << condition.name;
 }
+
+namespace {
 
 std::vector<Condition> short_conditions() {
     std::vector<Condition> all = all_conditions();
