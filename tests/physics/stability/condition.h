@@ -48,6 +48,7 @@ struct Condition {
 [[nodiscard]] std::vector<Condition> place_conditions();
 [[nodiscard]] std::vector<Condition> shape_conditions();
 [[nodiscard]] std::vector<Condition> effort_conditions();
+[[nodiscard]] std::vector<Condition> random_conditions();
 
 [[nodiscard]] std::vector<Condition> all_conditions();
 

@@ -19,8 +19,8 @@ BakeOptions few_patches() {
 
 std::vector<Condition> all_conditions() {
     std::vector<Condition> all;
-    for (const auto& part :
-         {light_conditions, place_conditions, shape_conditions, effort_conditions})
+    for (const auto& part : {light_conditions, place_conditions, shape_conditions,
+                             effort_conditions, random_conditions})
         std::ranges::move(part(), std::back_inserter(all));
     return all;
 }

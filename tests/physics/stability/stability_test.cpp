@@ -33,7 +33,7 @@ INSTANTIATE_TEST_SUITE_P(Short, Stability, testing::ValuesIn(short_conditions())
                              std::string name = info.param.name;
                              std::ranges::replace_if(
                                  name, [](unsigned char c) { return !std::isalnum(c); }, '_');
-                             return name;
+                             return std::to_string(info.index) + '_' + name;
                          });
 
 }  // namespace
