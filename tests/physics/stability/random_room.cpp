@@ -95,6 +95,8 @@ std::vector<Condition> random_conditions() {
                         .options = few_patches(),
                         .albedo = largest_random_albedo,
                         .is_long = number > 5};
+            // Enough for the first balance to tell about the smallest of the things.
+            c.options.resolution = 300;
             if (lit == Lit::evenly) {
                 c.closed_form = even_radiance();
                 c.options.light.first_shot = FirstShot::off;
