@@ -14,6 +14,14 @@ double DirectLight::share(std::size_t patch, std::size_t column) const {
                          : double{visibility[entry]} * geometry_factor[entry];
 }
 
+void DirectLight::scale(std::size_t patch, std::size_t column, double factor) {
+    const std::size_t entry = patch * columns() + column;
+    if (has_vectors())
+        vectors[entry] *= static_cast<float>(factor);
+    else
+        geometry_factor[entry] = static_cast<float>(factor * geometry_factor[entry]);
+}
+
 glm::dvec3 DirectLight::direction(std::size_t patch, std::size_t column,
                                   const glm::dvec3& point) const {
     if (has_vectors()) return vectors[patch * columns() + column];

@@ -1,3 +1,4 @@
+#include "first_shot/bound_direct_light.h"
 #include "first_shot/light_vectors.h"
 
 #include <transillum/base/sampling.h>
@@ -162,7 +163,9 @@ DirectLight shoot_direct_light(const SurfaceMesh& mesh, const PatchHierarchy& pa
     Shot shot(mesh, patches, luminaires, hemicube_resolution);
     shot.shoot_near(workers, monitor);
     shot.shoot_parallel(workers, monitor);
-    return shot.take();
+    DirectLight light = shot.take();
+    bound_direct_light(mesh, patches, light, workers);
+    return light;
 }
 
 std::vector<Spectrum> direct_irradiance(const DirectLight& light, std::uint32_t patch_count) {

@@ -12,6 +12,12 @@ namespace transillum {
 
 namespace {
 
+/// Nothing that arrives there is sent on, and nothing else is sent.
+bool is_dead(const Material& m, bool back) {
+    const bool reflects = max_channel(m.diffuse) > 0.0f || max_channel(m.specular) > 0.0f;
+    return !(reflects && (!back || m.back_reflects)) && !(m.emits() && (!back || m.back_emits));
+}
+
 /// Position and normal of a root side, so scaled that a normal turned around is as far as the scene
 /// is wide.
 using Feature = std::array<double, 6>;
@@ -78,8 +84,14 @@ std::vector<RootSide> root_sides(const SurfaceMesh& mesh) {
 
 Clusters make_clusters(const SurfaceMesh& mesh, const PatchHierarchy& patches) {
     std::vector<RootSide> sides = root_sides(mesh);
-    std::vector<Group> groups{measure(sides)};
-    while (groups.size() < most_clusters) {
+    const std::span<RootSide> dead(std::ranges::stable_partition(sides, [&](const RootSide& s) {
+        return !is_dead(mesh.materials[mesh.triangles[s.id / 2].material], s.id % 2 == 1);
+    }));
+    const std::span<RootSide> living(sides.data(), sides.size() - dead.size());
+    const std::size_t most = most_clusters - (dead.empty() ? 0 : 1);
+    std::vector<Group> groups;
+    if (!living.empty()) groups.push_back(measure(living));
+    while (!groups.empty() && groups.size() < most) {
         const auto widest = std::max_element(
             groups.begin(), groups.end(),
             [](const Group& a, const Group& b) { return a.priority < b.priority; });
@@ -96,6 +108,7 @@ Clusters make_clusters(const SurfaceMesh& mesh, const PatchHierarchy& patches) {
         *widest = measure(whole.members.first(first));
         groups.push_back(measure(whole.members.subspan(first)));
     }
+    if (!dead.empty()) groups.push_back({dead});
 
     Clusters clusters{static_cast<std::uint32_t>(groups.size()),
                       std::vector<std::uint8_t>(patches.patch_count() + 1)};

@@ -18,7 +18,8 @@ struct Clusters {
 
 /// Splits all root sides, again and again where area times spread is largest, at the middle of
 /// their widest extent in position (relative to the scene) and normal: walls of different rooms,
-/// and the sides of a wall, come apart.
+/// and the sides of a wall, come apart. Sides that neither reflect nor emit, as black backs, are a
+/// cluster of their own: among others they would only blur what these receive.
 [[nodiscard]] Clusters make_clusters(const SurfaceMesh& mesh, const PatchHierarchy& patches);
 
 }  // namespace transillum

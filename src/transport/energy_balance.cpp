@@ -12,6 +12,9 @@ namespace {
 
 /// A cluster met less often is left as it is: shares of so few fragments say nothing.
 constexpr double least_fragments = 64.0;
+/// Likewise one that light met less often, of which transfers are a sample: only some rows of
+/// pixels, and none from before the last restart.
+constexpr double least_lit_fragments = 8.0 * least_fragments;
 /// No balance scales by more than this at once.
 constexpr double largest_factor = 32.0;
 
@@ -22,6 +25,14 @@ struct ClusterState {
     SpectrumSum reflected{0.0};
     SpectrumSum source{0.0};
     SpectrumSum albedo{0.0};
+    // Sums over the patches' fragments of what arrived, and of its square.
+    SpectrumSum arrived{0.0}, arrived_squared{0.0};
+
+    /// As many fragments that bring light alike would tell as much.
+    [[nodiscard]] double lit_fragments(int channel) const {
+        const double squared = arrived_squared[channel];
+        return squared > 0.0 ? arrived[channel] * arrived[channel] / squared : 0.0;
+    }
 };
 
 std::vector<ClusterState> measure_clusters(const FiniteElementComponent& component,
@@ -32,7 +43,10 @@ std::vector<ClusterState> measure_clusters(const FiniteElementComponent& compone
         if (c == 0.0) continue;
         ClusterState& s = states[clusters.of_patch[p]];
         s.coverage += c;
-        s.incoming += c * component.incoming(p);
+        const SpectrumSum incoming = component.incoming(p);
+        s.incoming += c * incoming;
+        s.arrived += component.fragments(p) * incoming;
+        s.arrived_squared += component.fragments(p) * incoming * incoming;
         s.reflected += c * component.reflected(p);
         s.source += c * component.source(p);
         s.albedo += c * component.mean_albedo(p);
@@ -113,10 +127,35 @@ std::vector<double> solve_channel(const std::vector<ClusterState>& states,
     return incoming;
 }
 
+/// No radiance that arrives exceeds the largest source over 1 - albedo; of lobes, whose albedo
+/// depends on the angle, nothing is said.
+SpectrumSum largest_incoming(const FiniteElementComponent& component, float brightest_environment) {
+    SpectrumSum source(brightest_environment), albedo(0.0);
+    for (std::uint32_t p = 0; p < component.patch_count(); ++p) {
+        source = glm::max(source, component.source(p));
+        albedo = glm::max(albedo, component.mean_albedo(p));
+    }
+    const SpectrumSum unbounded(std::numeric_limits<double>::infinity());
+    return component.is_glossy() ? unbounded
+                                 : glm::mix(source / (1.0 - albedo), unbounded,
+                                            glm::greaterThanEqual(albedo, SpectrumSum(1.0)));
+}
+
+/// As much of a factor as leaves what arrives below the bound.
+SpectrumSum limited(const SpectrumSum& factor, const SpectrumSum& incoming,
+                    const SpectrumSum& bound) {
+    SpectrumSum f = factor;
+    for (int c = 0; c < channel_count; ++c)
+        if (f[c] > 1.0 && f[c] * incoming[c] > bound[c])
+            f[c] = std::max(1.0, bound[c] / incoming[c]);
+    return f;
+}
+
 }  // namespace
 
 void balance_energy(FiniteElementComponent& component, const Clusters& clusters,
-                    const ClusterTransfer& transfer, BalanceShape shape) {
+                    const ClusterTransfer& transfer, BalanceShape shape,
+                    float brightest_environment) {
     const std::vector<ClusterState> states = measure_clusters(component, clusters);
     std::vector<double> fragments(clusters.count);
     for (std::uint32_t j = 0; j < clusters.count; ++j)
@@ -130,15 +169,17 @@ void balance_energy(FiniteElementComponent& component, const Clusters& clusters,
             if (fragments[i] < least_fragments) continue;
             const double now =
                 states[i].coverage > 0.0 ? states[i].incoming[channel] / states[i].coverage : 0.0;
-            if (now > 0.0 && incoming[i] > 0.0)
+            const bool is_told = states[i].lit_fragments(channel) >= least_lit_fragments;
+            if (is_told && now > 0.0 && incoming[i] > 0.0)
                 factor[i][channel] =
                     std::clamp(incoming[i] / now, 1.0 / largest_factor, largest_factor);
         }
     }
+    const SpectrumSum bound = largest_incoming(component, brightest_environment);
     for (std::uint32_t p = 0; p < component.patch_count(); ++p) {
         const std::uint32_t i = clusters.of_patch[p];
         if (shape == BalanceShape::kept) {
-            component.scale_incoming(p, factor[i]);
+            component.scale_incoming(p, limited(factor[i], component.incoming(p), bound));
             continue;
         }
         if (fragments[i] < least_fragments) continue;

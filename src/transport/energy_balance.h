@@ -20,9 +20,11 @@ enum class BalanceShape {
 
 /// Scales the incoming radiance of every patch to the balance of its cluster. Everything is
 /// measured in fragments, as the transfers are: a uniform radiance in a closed scene then is in
-/// balance to the last digit, for any clusters. \param transfer collected since the component's
-/// last restart. \throws UsageError when nothing absorbs and nothing leaves the scene.
+/// balance to the last digit, for any clusters. No patch is raised above what any may receive.
+/// \param transfer collected since the component's last restart. \param brightest_environment
+/// bound of its radiance. \throws UsageError when nothing absorbs and nothing leaves the scene.
 void balance_energy(FiniteElementComponent& component, const Clusters& clusters,
-                    const ClusterTransfer& transfer, BalanceShape shape);
+                    const ClusterTransfer& transfer, BalanceShape shape,
+                    float brightest_environment = 0.0f);
 
 }  // namespace transillum

@@ -13,6 +13,9 @@ namespace {
 
 constexpr std::size_t grain = 16384;
 constexpr int least_blocks_for_error = 4;
+/// A patch that but one block met, or next to, has no spread: as many equal ones would tell as
+/// much.
+constexpr double least_equal_blocks = 1.5;
 /// Weight that an earlier estimate keeps beside the first new fragments.
 constexpr double prior_weight = 0x1p-14;
 
@@ -145,7 +148,8 @@ void FiniteElementComponent::set_incoming(std::uint32_t patch, const SpectrumSum
 
 SpectrumSum FiniteElementComponent::incoming_variance(std::uint32_t patch) const {
     const PatchSums& s = sums_[patch];
-    if (blocks_ < least_blocks_for_error || s.coverage == 0.0)
+    const bool is_told = s.coverage * s.coverage >= least_equal_blocks * s.coverage_squared;
+    if (blocks_ < least_blocks_for_error || s.coverage == 0.0 || !is_told)
         return SpectrumSum(std::numeric_limits<double>::quiet_NaN());
     // Linearised variance of a ratio of sums: sum of (w C)^2 (x_b - x)^2 over (sum of w C)^2.
     const SpectrumSum x = ratio(patch);

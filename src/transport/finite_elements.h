@@ -97,7 +97,8 @@ public:
     void set_incoming(std::uint32_t patch, const SpectrumSum& incoming);
     /// Since the average was begun.
     [[nodiscard]] int blocks() const { return blocks_; }
-    /// Squared standard error of `incoming`, from the spread of the blocks; NaN for fewer than 4.
+    /// Squared standard error of `incoming`, from the spread of the blocks; NaN for fewer
+    /// than 4, or where hardly more than one met the patch.
     [[nodiscard]] SpectrumSum incoming_variance(std::uint32_t patch) const;
 
     /// Mean radiance that a patch reflects of `incoming`, weighted with the cosine.
@@ -106,6 +107,7 @@ public:
     [[nodiscard]] SpectrumSum source(std::uint32_t patch) const;
     /// Reflected share of uniform light.
     [[nodiscard]] SpectrumSum mean_albedo(std::uint32_t patch) const;
+    [[nodiscard]] bool is_glossy() const { return !glossy_.empty(); }
     /// Incoming radiance of glossy sides by bin, as glossy_sides.h lays it out.
     [[nodiscard]] std::vector<Spectrum> glossy_values();
 

@@ -47,6 +47,11 @@ std::uint64_t block_length(std::uint64_t done, Averaging averaging) {
     return std::min(std::bit_floor(done) / 4, longest_block);
 }
 
+/// Squares of radiances may be more than floats hold.
+float saturated(double x) {
+    return static_cast<float>(std::min(x, double{std::numeric_limits<float>::max()}));
+}
+
 class Iteration {
 public:
     Iteration(const SurfaceMesh& mesh, const PatchHierarchy& patches, const PatchSources& sources,
@@ -76,8 +81,9 @@ public:
             begin_block();
             std::uint64_t block = block_length(done_, options_.averaging);
             if (effect_) block = std::min(block, first_carried / 2);
-            component_.send(exchange_, brightest_environment(block), most_fragments(block),
-                            transfer_.headroom());
+            const float brightest = brightest_environment(block);
+            brightest_so_far_ = std::max(brightest_so_far_, brightest);
+            component_.send(exchange_, brightest, most_fragments(block), transfer_.headroom());
             std::uint64_t in_block = 0;
             do {
                 transfer(transfer_.bundle(done_ + in_block), weight_after(block));
@@ -227,7 +233,8 @@ private:
 
     void balance() {
         balance_energy(component_, clusters_, between_clusters_,
-                       done_ == first_balance ? BalanceShape::flat : BalanceShape::kept);
+                       done_ == first_balance ? BalanceShape::flat : BalanceShape::kept,
+                       brightest_so_far_);
         if (done_ == first_balance) component_.forget_error();
     }
 
@@ -240,9 +247,10 @@ private:
 
     TransportResult finish() {
         // Within the phase after a restart there is too little to do without what came before; and
-        // between powers of two the last directions are not in balance yet.
+        // between powers of two the last directions are not in balance yet. But transfers from
+        // before the first balance were of light that had only begun to spread.
         if (!balances_at(done_)) recall();
-        if (options_.averaging == Averaging::balanced && done_ > first_balance &&
+        if (options_.averaging == Averaging::balanced && done_ > 2 * first_balance &&
             !balances_at(done_))
             balance();
         TransportResult result;
@@ -287,8 +295,8 @@ private:
         const double directions = static_cast<double>(result.carried) - 1.0;
         for (std::uint32_t p = 0; p < component_.patch_count(); ++p) {
             const ResidualNorms norms = transfer_.norms(p);
-            result.spatial_error.push_back(static_cast<float>(norms.spatial / directions));
-            result.directional_error.push_back(static_cast<float>(norms.directional / directions));
+            result.spatial_error.push_back(saturated(norms.spatial / directions));
+            result.directional_error.push_back(saturated(norms.directional / directions));
         }
     }
 
@@ -308,6 +316,7 @@ private:
     MonteCarlo representation_ = MonteCarlo::off;
     std::optional<ResidualEffect> effect_;  ///< while it is being measured
     std::uint64_t effect_begin_ = 0;
+    float brightest_so_far_ = 0.0f;  ///< of the environment
     double residual_effect_ = std::numeric_limits<double>::quiet_NaN();
     std::uint64_t done_ = 0;
     double relative_error_ = std::numeric_limits<double>::quiet_NaN();

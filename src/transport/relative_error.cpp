@@ -9,7 +9,7 @@ namespace transillum {
 double estimate_relative_error(const FiniteElementComponent& component,
                                std::span<const double> leaf_area, const Workers& workers) {
     struct Sums {
-        double variance = 0.0, mean = 0.0, seen = 0.0, unseen = 0.0;
+        double variance = 0.0, mean = 0.0, seen = 0.0, unseen = 0.0, untold = 0.0;
     };
     constexpr std::uint32_t range = 1 << 14;  // fixed, so that sums don't depend on the threads
     std::vector<Sums> partial(component.patch_count() / range + 1);
@@ -23,7 +23,11 @@ double estimate_relative_error(const FiniteElementComponent& component,
                 (seen ? partial[r].seen : partial[r].unseen) += area;
                 if (!seen) continue;
                 partial[r].mean += area * luminance(component.incoming(p));
-                partial[r].variance += area * luminance(component.incoming_variance(p));
+                const double variance = luminance(component.incoming_variance(p));
+                if (std::isnan(variance))
+                    partial[r].untold += area;
+                else
+                    partial[r].variance += area * variance;
             }
         }
     });
@@ -33,15 +37,18 @@ double estimate_relative_error(const FiniteElementComponent& component,
         all.variance += s.variance;
         all.seen += s.seen;
         all.unseen += s.unseen;
+        all.untold += s.untold;
     }
     if (all.seen == 0.0) return std::numeric_limits<double>::quiet_NaN();
     if (all.mean == 0.0) return 0.0;
     // Fewer might seem to agree by chance.
     constexpr int least_blocks = 8;
     if (component.blocks() < least_blocks) return std::numeric_limits<double>::quiet_NaN();
-    // Of a patch that no direction has met nothing is known: an error as large as the mean.
+    // Of a patch that hardly any direction has met nothing is known: an error as large as the mean.
     const double mean = all.mean / all.seen;
-    return std::sqrt((all.variance + all.unseen * mean * mean) / (all.seen + all.unseen)) / mean;
+    return std::sqrt((all.variance + (all.unseen + all.untold) * mean * mean) /
+                     (all.seen + all.unseen)) /
+           mean;
 }
 
 }  // namespace transillum

@@ -227,7 +227,7 @@ void Hemicube::draw_root(const Face& face, std::uint32_t root) {
         if (area < 0) std::swap(triangle[1], triangle[2]);
         for (int y = 0; y < face.height; y += tile_size)
             for (int x = 0; x < face.width; x += tile_size)
-                scan_convert(triangle,
+                scan_convert(triangle, sub_pixel_bits,
                              {x, y, std::min(x + tile_size, face.width),
                               std::min(y + tile_size, face.height)},
                              span);

@@ -1,8 +1,8 @@
 /// Watertight scan conversion, shared by the transillumination buffer and the hemicube.
 ///
-/// Vertices are snapped to 1/256 of a pixel and edges are evaluated in integers, with the top-left
-/// rule: a pixel centre that lies on the common edge of two triangles belongs to exactly one of
-/// them.
+/// Vertices are snapped to a fraction of a pixel, 1/256 in the largest windows, and edges are
+/// evaluated in integers, with the top-left rule: a pixel centre that lies on the common edge of
+/// two triangles belongs to exactly one of them.
 #pragma once
 
 #include <algorithm>
@@ -15,22 +15,24 @@ namespace transillum {
 inline constexpr int sub_pixel_bits = 8;
 /// Windows have at most this many pixels a side, so that edge values across a tile fit 32 bits.
 inline constexpr int max_window = 1 << 14;
+/// Smaller windows have room for more sub-pixel bits: as many as this in all.
+inline constexpr int window_bits = 14 + sub_pixel_bits;
 inline constexpr int tile_size = 64;
 
-/// A vertex in units of 1/256 pixel; pixel centres lie at multiples of 256.
+/// A vertex in fractions of a pixel, 2^-bits each; pixel centres lie at whole pixels.
 struct FixedPoint {
     std::int32_t x = 0, y = 0;
 };
 
-/// Twice the signed area, in squares of 1/256 pixel.
+/// Twice the signed area, in squares of these fractions.
 [[nodiscard]] inline std::int64_t twice_area(const FixedPoint& a, const FixedPoint& b,
                                              const FixedPoint& c) {
     return std::int64_t{b.x - a.x} * (c.y - a.y) - std::int64_t{b.y - a.y} * (c.x - a.x);
 }
 
 /// First pixel centre at or after a coordinate.
-[[nodiscard]] inline std::int32_t first_centre(std::int32_t fixed) {
-    return (fixed + (1 << sub_pixel_bits) - 1) >> sub_pixel_bits;
+[[nodiscard]] inline std::int32_t first_centre(std::int32_t fixed, int bits) {
+    return (fixed + (1 << bits) - 1) >> bits;
 }
 
 /// Pixels [x0, x1) x [y0, y1), at most tile_size a side.
@@ -84,18 +86,17 @@ private:
 };
 
 /// Calls `span(y, x0, x1)` for every row of `rect` where pixel centres [x0, x1) lie in the
-/// triangle. \pre twice_area(v[0], v[1], v[2]) > 0
+/// triangle. \param bits of a pixel; all coordinates are below 2^window_bits.
+/// \pre twice_area(v[0], v[1], v[2]) > 0
 template <class Span>
-[[gnu::always_inline]] inline void scan_convert(const std::array<FixedPoint, 3>& v,
+[[gnu::always_inline]] inline void scan_convert(const std::array<FixedPoint, 3>& v, int bits,
                                                 const TileRect& rect, Span&& span) {
     const std::int32_t x_begin =
-        std::max(rect.x0, first_centre(std::min({v[0].x, v[1].x, v[2].x})));
-    const std::int32_t x_end =
-        std::min(rect.x1, (std::max({v[0].x, v[1].x, v[2].x}) >> sub_pixel_bits) + 1);
+        std::max(rect.x0, first_centre(std::min({v[0].x, v[1].x, v[2].x}), bits));
+    const std::int32_t x_end = std::min(rect.x1, (std::max({v[0].x, v[1].x, v[2].x}) >> bits) + 1);
     const std::int32_t y_begin =
-        std::max(rect.y0, first_centre(std::min({v[0].y, v[1].y, v[2].y})));
-    std::int32_t y_end =
-        std::min(rect.y1, (std::max({v[0].y, v[1].y, v[2].y}) >> sub_pixel_bits) + 1);
+        std::max(rect.y0, first_centre(std::min({v[0].y, v[1].y, v[2].y}), bits));
+    std::int32_t y_end = std::min(rect.y1, (std::max({v[0].y, v[1].y, v[2].y}) >> bits) + 1);
     if (x_begin >= x_end || y_begin >= y_end) return;
 
     std::int32_t y_first = y_begin;
@@ -106,15 +107,15 @@ template <class Span>
     for (int i = 0; i < 3; ++i) {
         const FixedPoint& p = v[i];
         const FixedPoint& q = v[i == 2 ? 0 : i + 1];
-        // Inside: a x + b y + c >= 0. At pixel centres the edge function changes in steps of 256,
-        // so it may be divided by 256, rounding down, without changing its sign.
+        // Inside: a x + b y + c >= 0. At pixel centres the edge function changes in steps of
+        // 2^bits, so it may be divided by that, rounding down, without changing its sign.
         const std::int32_t a = p.y - q.y;
         const std::int32_t b = q.x - p.x;
         const bool owns_its_points = a > 0 || (a == 0 && b > 0);
         const std::int64_t at_origin =
             -(std::int64_t{a} * p.x + std::int64_t{b} * p.y) - (owns_its_points ? 0 : 1);
         const std::int64_t c =
-            (at_origin >> sub_pixel_bits) + std::int64_t{a} * x_begin + std::int64_t{b} * y_begin;
+            (at_origin >> bits) + std::int64_t{a} * x_begin + std::int64_t{b} * y_begin;
         const std::int64_t dx = std::int64_t{a} * width;
         const std::int64_t dy = std::int64_t{b} * height;
         if (c + std::min<std::int64_t>(dx, 0) + std::min<std::int64_t>(dy, 0) >= 0) continue;

@@ -6,6 +6,7 @@
 
 #include <glm/geometric.hpp>
 
+#include <bit>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -79,6 +80,10 @@ TransilluminationBuffer::TransilluminationBuffer(const SurfaceMesh& mesh,
         throw UsageError("pixel size " + std::to_string(pixel_size) + ": the window would be " +
                          std::to_string(widest) + " pixels wide; accepted: at most " +
                          std::to_string(max_window));
+    // The finer vertices are snapped, the closer surfaces may pass each other.
+    sub_pixel_bits_ =
+        window_bits - static_cast<int>(std::bit_width(static_cast<unsigned>(widest) + 2));
+    fixed_unit_ = std::ldexp(1.0, sub_pixel_bits_);
     const glm::dvec3 furthest = glm::max(glm::abs(b.low), glm::abs(b.high));
     plane_tolerance_ = std::max({furthest.x, furthest.y, furthest.z}) * 0x1p-38;
     bins_.resize((mesh.triangles.size() + triangles_a_bin_set - 1) / triangles_a_bin_set);
@@ -108,15 +113,15 @@ void TransilluminationBuffer::project(const Bundle& bundle, const Workers& worke
         b.low = glm::min(b.low, p.low);
         b.high = glm::max(b.high, p.high);
     }
-    const double scale = fixed_unit / pixel_size_;
+    const double scale = fixed_unit_ / pixel_size_;
     const glm::dvec2 shift =
-        glm::dvec2(bundle.offset_x, bundle.offset_y) * fixed_unit - glm::dvec2(b.low) * scale;
+        glm::dvec2(bundle.offset_x, bundle.offset_y) * fixed_unit_ - glm::dvec2(b.low) * scale;
     const double range = b.high.z - b.low.z;
     const double depth_scale = range > 0.0 ? (0x1p63 - 2.0 * depth_margin) / range : 0.0;
     constexpr double depth_step = 0x1p32;  // fragments keep the upper bits
-    window_ = {bundle.frame,
-               glm::dvec3(1.0 / pixel_size_, 1.0 / pixel_size_, depth_scale / depth_step),
-               glm::dvec3(shift / fixed_unit, (depth_margin - b.low.z * depth_scale) / depth_step)};
+    window_ = {
+        bundle.frame, glm::dvec3(1.0 / pixel_size_, 1.0 / pixel_size_, depth_scale / depth_step),
+        glm::dvec3(shift / fixed_unit_, (depth_margin - b.low.z * depth_scale) / depth_step)};
     width_ = static_cast<int>(std::ceil((b.high.x - b.low.x) / pixel_size_)) + 2;
     height_ = static_cast<int>(std::ceil((b.high.y - b.low.y) / pixel_size_)) + 2;
     tiles_x_ = (width_ + tile_size - 1) / tile_size;
@@ -148,10 +153,10 @@ void TransilluminationBuffer::bin(const Workers& workers) {
                 const auto& v = mesh_.triangles[t].vertices;
                 const ProjectedVertex &a = projected_[v[0]], &b = projected_[v[1]],
                                       &c = projected_[v[2]];
-                const int x0 = first_centre(std::min({a.x, b.x, c.x}));
-                const int x1 = std::max({a.x, b.x, c.x}) >> sub_pixel_bits;
-                const int y0 = first_centre(std::min({a.y, b.y, c.y}));
-                const int y1 = std::max({a.y, b.y, c.y}) >> sub_pixel_bits;
+                const int x0 = first_centre(std::min({a.x, b.x, c.x}), sub_pixel_bits_);
+                const int x1 = std::max({a.x, b.x, c.x}) >> sub_pixel_bits_;
+                const int y0 = first_centre(std::min({a.y, b.y, c.y}), sub_pixel_bits_);
+                const int y1 = std::max({a.y, b.y, c.y}) >> sub_pixel_bits_;
                 if (x0 > x1 || y0 > y1) continue;  // between pixel centres
                 for (int y = y0 / tile_size; y <= y1 / tile_size; ++y)
                     for (int x = x0 / tile_size; x <= x1 / tile_size; ++x)

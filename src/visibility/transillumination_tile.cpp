@@ -38,17 +38,17 @@ TransilluminationBuffer::Plane TransilluminationBuffer::depth_plane(std::uint32_
     if (v[0] > v[1]) std::swap(v[0], v[1]);
     const ProjectedVertex &a = projected_[v[0]], &b = projected_[v[1]], &c = projected_[v[2]];
     const double bx = b.x - a.x, by = b.y - a.y, cx = c.x - a.x, cy = c.y - a.y;
-    const double scale = fixed_unit / (bx * cy - cx * by);
+    const double scale = fixed_unit_ / (bx * cy - cx * by);
     const double zb = b.depth - a.depth, zc = c.depth - a.depth;
-    return {a.x / fixed_unit, a.y / fixed_unit, a.depth, (zb * cy - zc * by) * scale,
+    return {a.x / fixed_unit_, a.y / fixed_unit_, a.depth, (zb * cy - zc * by) * scale,
             (zc * bx - zb * cx) * scale};
 }
 
 /// Barycentric coordinates of the second and third vertex, about the first.
 std::array<TransilluminationBuffer::Plane, 2> TransilluminationBuffer::barycentric_planes(
-    const std::array<FixedPoint, 3>& v, std::int64_t twice_area) {
-    const double scale = fixed_unit / static_cast<double>(twice_area);
-    const double x = v[0].x / fixed_unit, y = v[0].y / fixed_unit;
+    const std::array<FixedPoint, 3>& v, std::int64_t twice_area) const {
+    const double scale = fixed_unit_ / static_cast<double>(twice_area);
+    const double x = v[0].x / fixed_unit_, y = v[0].y / fixed_unit_;
     return {Plane{x, y, 0.0, (v[2].y - v[0].y) * scale, (v[0].x - v[2].x) * scale},
             Plane{x, y, 0.0, (v[0].y - v[1].y) * scale, (v[1].x - v[0].x) * scale}};
 }
@@ -137,7 +137,7 @@ void TransilluminationBuffer::draw(std::uint32_t root, const TileRect& rect, Scr
     std::array<std::uint64_t, block> ramp;
     for (int i = 0; i < block; ++i) ramp[i] = static_cast<std::uint64_t>(i) * dz;
     scan_convert(
-        fixed,
+        fixed, sub_pixel_bits_,
         rect, [&](std::int32_t y, std::int32_t x0, std::int32_t x1) __attribute__((always_inline)) {
             int at = (y - rect.y0) * width + (x0 - rect.x0);
             int length = x1 - x0;

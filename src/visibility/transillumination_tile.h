@@ -11,7 +11,6 @@
 
 namespace transillum {
 
-inline constexpr double fixed_unit = 1 << sub_pixel_bits;
 /// Pixels of a span that are drawn at once.
 inline constexpr int block = 8;
 

@@ -61,6 +61,28 @@ TEST_F(Results, AreFoundAgainWhereNothingChanged) {
     }
 }
 
+// Wherever memory lies: addresses are random in each run, and once not at all.
+TEST_F(Results, AreTheSameInEveryRun) {
+    const std::string bake =
+        std::string("\"$TRANSILLUM\" -q bake ") + cornell + coarse + "-o box.vtm";
+    const bool fixes = shell("setarch --addr-no-randomize true").exit_code == 0;
+    const std::vector<std::string> runs{bake, bake,
+                                        fixes ? "setarch --addr-no-randomize " + bake : bake};
+    std::set<std::string> pieces;
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+        const Outcome o =
+            shell("mkdir " + std::to_string(i) + " && cd " + std::to_string(i) + " && " + runs[i]);
+        ASSERT_EQ(o.exit_code, 0) << o.err;
+        pieces = listing(std::to_string(i) + "/box");
+        pieces.erase("run.json");
+        EXPECT_TRUE(read(std::to_string(i) + "/box.vtm") == read("0/box.vtm"));
+        for (const std::string& piece : pieces)
+            EXPECT_TRUE(read(std::to_string(i) + "/box/" + piece) == read("0/box/" + piece))
+                << "run " << i << ", " << piece;
+    }
+    EXPECT_TRUE(pieces.contains("radiance.vtp"));
+}
+
 TEST_F(Results, OfRefinedPatchesDoNotDependOnTheNumberOfThreads) {
     const std::string options = "--refine 2 --refine-tolerance 0.3 --threads ";
     bake_cornell("one.vtm", options + "1");

@@ -50,6 +50,7 @@ struct DirectLight {
     /// area: area * cos * cos' / r^2, the projected solid angle [sr];
     /// point: PunctualLight::distribution * cos' / r^2 [sr / square scene unit];
     /// directional: cos' [1].
+    /// Close to emitting surfaces, bounded: what they fill together is at most pi.
     std::vector<float> geometry_factor;
     std::vector<float> visibility;  ///< seen share of that [0, 1]
     /// Per root triangle and side (2 * root + back): its emission travels by first shot, so the
@@ -66,6 +67,7 @@ struct DirectLight {
     }
     /// Irradiance of a patch by what a column emits.
     [[nodiscard]] double share(std::size_t patch, std::size_t column) const;
+    void scale(std::size_t patch, std::size_t column, double factor);
     /// Where a column's light comes from, seen from a point of the patch. Not unit.
     [[nodiscard]] glm::dvec3 direction(std::size_t patch, std::size_t column,
                                        const glm::dvec3& point) const;

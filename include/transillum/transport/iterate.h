@@ -118,7 +118,8 @@ struct TransportResult {
     bool carried_to_the_end = false;
     double residual_effect = std::numeric_limits<double>::quiet_NaN();
     /// Its norms (§3.2) [W^2 sr^-2 m^-4], one a patch, means over directions of the luminance: V_s,
-    /// its variance within a patch, and V_d, the square of its mean. Empty unless carried.
+    /// its variance within a patch, and V_d, the square of its mean; at most what a float holds.
+    /// Empty unless carried.
     std::vector<float> spatial_error, directional_error;
 };
 

@@ -104,7 +104,7 @@ private:
     struct Scratch;
     struct Plane;
     struct ProjectedVertex {
-        std::int32_t x, y;  ///< 1/256 pixel
+        std::int32_t x, y;  ///< pixels / fixed_unit_
         double depth;       ///< in [0, 2^63)
     };
     /// Triangles by tile, of one range of triangles.
@@ -115,8 +115,8 @@ private:
     void fill_tile(int tile, Scratch& scratch) const;
     void draw(std::uint32_t root, const struct TileRect& rect, Scratch& scratch) const;
     Plane depth_plane(std::uint32_t root) const;
-    static std::array<Plane, 2> barycentric_planes(const std::array<struct FixedPoint, 3>& v,
-                                                   std::int64_t twice_area);
+    std::array<Plane, 2> barycentric_planes(const std::array<struct FixedPoint, 3>& v,
+                                            std::int64_t twice_area) const;
     bool are_coplanar(std::uint32_t root_a, std::uint32_t root_b) const;
     bool is_behind(Fragment a, Fragment b, int x, int y) const;
     void sort_list(Fragment* begin, Fragment* end, int x, int y) const;
@@ -124,6 +124,8 @@ private:
     const SurfaceMesh& mesh_;
     const PatchHierarchy& patches_;
     double pixel_size_;
+    int sub_pixel_bits_;      ///< of projected vertices: 8 in the largest windows, else more
+    double fixed_unit_;       ///< of these bits
     double plane_tolerance_;  ///< what snapping may move a vertex out of its plane
     int width_ = 0, height_ = 0, tiles_x_ = 0, tiles_y_ = 0;
     WindowTransform window_;

@@ -44,6 +44,18 @@ TEST(Clusters, NeverJoinTheSidesOfAWallNorTwoRooms) {
         EXPECT_EQ(kinds.size(), 1u) << "cluster " << cluster;
 }
 
+TEST(Clusters, SetBlackBacksApart) {
+    SceneBuilder b;
+    b.sphere({0, 0, 0}, 1.0, 24, Facing::inwards);
+    b.scene.materials[0].back_reflects = false;
+    const SurfaceMesh mesh = b.surface();
+    const PatchHierarchy patches = level_two(mesh);
+    const Clusters clusters = make_clusters(mesh, patches);
+    EXPECT_EQ(clusters.count, most_clusters);
+    for (std::uint32_t p = 0; p < patches.patch_count(); ++p)
+        EXPECT_EQ(clusters.of_patch[p] == most_clusters - 1, patches.is_back(p)) << p;
+}
+
 TEST(Clusters, OfASingleTriangleAreItsSides) {
     SceneBuilder b;
     b.polygon({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});

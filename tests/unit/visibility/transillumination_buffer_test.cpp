@@ -68,12 +68,15 @@ std::vector<Closed> closed_surfaces() {
     std::vector<Closed> all;
     for (const Facing facing : {Facing::outwards, Facing::inwards}) {
         const Facing other = facing == Facing::outwards ? Facing::inwards : Facing::outwards;
-        SceneBuilder cube, sphere, shell, flat;
+        SceneBuilder cube, sphere, shell, flat, foil;
         cube.box({0, 0, 0}, {1, 1, 1}, facing);
         sphere.sphere({0, 0, 0}, 0.6, 40, facing);
         shell.box({0, 0, 0}, {1, 1, 1}, facing);
         shell.box({0.3, 0.2, 0.4}, {0.7, 0.6, 0.9}, other);
         flat.box({0, 0, 0}, {1, 1, 0.02}, facing);
+        foil.sphere({0, 0, 0}, 0.6, 40, facing);
+        foil.sphere({0, 0, 0}, 0.6 * (1.0 - 1e-5), 40, other);
+        all.push_back({"foil", facing, foil.surface()});
         all.push_back({"cube", facing, cube.surface()});
         all.push_back({"sphere", facing, sphere.surface()});
         all.push_back({"shell", facing, shell.surface()});
