@@ -7,8 +7,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
-#include <cstdlib>
 
 namespace transillum {
 
@@ -40,54 +40,49 @@ struct TileRect {
     std::int32_t x0 = 0, y0 = 0, x1 = 0, y1 = 0;
 };
 
-/// Where one edge crosses the pixel rows: quotient and remainder of a division, stepped row by row.
-/// An edge bounds spans at their start or at their end; which, is not a branch: small triangles
-/// would mispredict it.
-class EdgeWalk {
+/// Rows whose spans are worked out at once, a lane each.
+inline constexpr int rows_at_once = 4;
+using RowBounds = double __attribute__((vector_size(8 * rows_at_once)));
+
+/// Where an edge crosses the pixel rows: it bounds spans at their start or at their end; which, is
+/// not a branch: small triangles would mispredict it. A bound is a quotient of whole numbers below
+/// 2^31, rounded up or down. It is worked out in double: half a step beside the numerator keeps all
+/// quotients so far from whole numbers that a product with the reciprocal does.
+class EdgeBounds {
 public:
-    /// No bound within [x_begin, x_end).
-    EdgeWalk(std::int32_t x_begin, std::int32_t x_end)
-        : quotient_(x_begin), start_mask_(-1), x_end_(x_end), x_begin_(x_begin) {}
-    /// Inside is where a * x + b * row + c >= 0, x counted from x_begin; a != 0.
-    EdgeWalk(std::int32_t a, std::int32_t b, std::int32_t c, std::int32_t x_begin,
-             std::int32_t x_end)
-        : divisor_(std::abs(a)), start_mask_(a > 0 ? -1 : 0), x_end_(x_end), x_begin_(x_begin) {
+    /// Bounds nothing.
+    EdgeBounds() = default;
+    /// Inside is where a * x + b * row + c >= 0; a != 0.
+    EdgeBounds(std::int32_t a, std::int32_t b, std::int32_t c)
         // a > 0: from ceil(-(b row + c) / a) on; a < 0: up to floor((b row + c) / -a).
-        const std::int32_t numerator = a > 0 ? a - 1 - c : c - a;
-        const std::int32_t step = a > 0 ? -b : b;
-        const std::int32_t quotient = floor_div(numerator, divisor_);
-        quotient_ = x_begin + quotient;
-        remainder_ = numerator - quotient * divisor_;
-        step_quotient_ = floor_div(step, divisor_);
-        step_remainder_ = step - step_quotient_ * divisor_;
+        : numerator_(static_cast<double>(a - c) - 0.5), step_(b), reciprocal_(1.0 / a) {
+        const double way = std::copysign(0.5 * unbounded, static_cast<double>(a));
+        at_start_ = way - 0.5 * unbounded;
+        at_end_ = way + 0.5 * unbounded;
     }
-    [[nodiscard]] std::int32_t start() const {
-        return (quotient_ & start_mask_) | (x_begin_ & ~start_mask_);
-    }
-    [[nodiscard]] std::int32_t end() const {
-        return (quotient_ & ~start_mask_) | (x_end_ & start_mask_);
-    }
-    void next_row() {
-        quotient_ += step_quotient_;
-        remainder_ += step_remainder_ - divisor_;
-        const std::int32_t no_carry = remainder_ >> 31;  // -1 or 0
-        quotient_ += 1 + no_carry;
-        remainder_ += divisor_ & no_carry;
+
+    /// \param rows those looked at
+    [[gnu::always_inline]] void apply(const RowBounds& rows, RowBounds& start,
+                                      RowBounds& end) const {
+        // What lies between two whole numbers, less a half, is rounded to the lower one.
+        constexpr double to_whole = 0x1.8p52;
+        const RowBounds quotient = (numerator_ - step_ * rows) * reciprocal_;
+        const RowBounds bound = (quotient - 0.5 + to_whole) - to_whole;
+        const RowBounds from = bound + at_start_, to = bound + at_end_;
+        start = start > from ? start : from;
+        end = end < to ? end : to;
     }
 
 private:
-    static std::int32_t floor_div(std::int32_t a, std::int32_t b) {
-        return a / b - (a % b < 0 ? 1 : 0);
-    }
-
-    std::int32_t divisor_ = 1, quotient_ = 0, remainder_ = 0, step_quotient_ = 0,
-                 step_remainder_ = 0;
-    std::int32_t start_mask_, x_end_, x_begin_;
+    static constexpr double unbounded = 0x1p40;
+    double numerator_ = 0.0, step_ = 0.0, reciprocal_ = 0.0;
+    double at_start_ = -unbounded, at_end_ = unbounded;
 };
 
-/// Calls `span(y, x0, x1)` for every row of `rect` where pixel centres [x0, x1) lie in the
-/// triangle. \param bits of a pixel; all coordinates are below 2^window_bits.
-/// \pre twice_area(v[0], v[1], v[2]) > 0
+/// Calls `span(y, x0, x1)` for every row of `rect` in which pixel centres [x0, x1) lie in the
+/// triangle, and for some in which none does: x1 <= x0 there, x0 as far as the rectangle's end.
+/// \param bits of a pixel; all coordinates are below 2^window_bits. \pre twice_area(v[0], v[1],
+/// v[2]) > 0
 template <class Span>
 [[gnu::always_inline]] inline void scan_convert(const std::array<FixedPoint, 3>& v, int bits,
                                                 const TileRect& rect, Span&& span) {
@@ -100,8 +95,7 @@ template <class Span>
     if (x_begin >= x_end || y_begin >= y_end) return;
 
     std::int32_t y_first = y_begin;
-    std::array<EdgeWalk, 3> edges{EdgeWalk(x_begin, x_end), EdgeWalk(x_begin, x_end),
-                                  EdgeWalk(x_begin, x_end)};
+    std::array<EdgeBounds, 3> edges;
     const std::int32_t width = x_end - 1 - x_begin;
     const std::int32_t height = y_end - 1 - y_begin;
     for (int i = 0; i < 3; ++i) {
@@ -123,18 +117,24 @@ template <class Span>
         // The edge crosses this rectangle, so its values here are below 2 * 64 * 2^22.
         const auto c32 = static_cast<std::int32_t>(c);
         if (a != 0)
-            edges[i] = EdgeWalk(a, b, c32, x_begin, x_end);
+            edges[i] = EdgeBounds(a, b, c32);
         else if (b > 0)
             y_first = y_begin + (b - 1 - c32) / b;
         else
             y_end = y_begin + c32 / -b + 1;
     }
-    for (std::int32_t y = y_begin; y < y_end; ++y) {
-        const std::int32_t x0 =
-            std::max({x_begin, edges[0].start(), edges[1].start(), edges[2].start()});
-        const std::int32_t x1 = std::min({x_end, edges[0].end(), edges[1].end(), edges[2].end()});
-        if (x0 < x1 && y >= y_first) span(y, x0, x1);
-        for (EdgeWalk& e : edges) e.next_row();
+    using Bounds = std::int32_t __attribute__((vector_size(4 * rows_at_once)));
+    const double limit = width + 1;
+    RowBounds rows{0.0, 1.0, 2.0, 3.0};
+    for (std::int32_t y0 = y_begin; y0 < y_end; y0 += rows_at_once, rows += rows_at_once) {
+        RowBounds start{}, end = RowBounds{} + limit;
+        for (const EdgeBounds& e : edges) e.apply(rows, start, end);
+        start = start < limit ? start : RowBounds{} + limit;
+        const Bounds x0 = x_begin + __builtin_convertvector(start, Bounds);
+        const Bounds x1 = x_begin + __builtin_convertvector(end, Bounds);
+        const std::int32_t first = std::max(y_first - y0, 0);
+        const std::int32_t last = std::min(y_end - y0, rows_at_once);
+        for (std::int32_t r = first; r < last; ++r) span(y0 + r, x0[r], x1[r]);
     }
 }
 

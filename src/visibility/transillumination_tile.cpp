@@ -11,6 +11,8 @@ namespace {
 
 /// A fragment keeps the upper 31 of the 63 bits of depth.
 constexpr std::uint64_t depth_bits = 0xffffffff00000000u;
+/// While they are drawn, they have the upper 51: steep triangles need the room above.
+constexpr int depth_shift = 12;
 /// Planes of triangles that meet at an edge differ by this much there.
 constexpr double depth_rounding = 0x1p24;
 
@@ -27,16 +29,77 @@ constexpr double depth_rounding = 0x1p24;
     return leaves;
 }
 
+using Keys = std::uint64_t __attribute__((vector_size(32), aligned(8), may_alias));
+using Pixels = std::uint16_t __attribute__((vector_size(16), aligned(2), may_alias));
+using Lengths = std::uint32_t __attribute__((vector_size(32), aligned(4), may_alias));
+
+/// \param z of the first pixel, in steps of 2^-depth_fraction of those that are kept
+[[gnu::always_inline]] inline void store_keys(Fragment* out, std::uint64_t z, std::uint64_t step,
+                                              std::uint64_t low,
+                                              const std::array<std::uint32_t, block>& leaf) {
+    Keys first = z + step * Keys{0, 1, 2, 3};
+    Keys second = first + 4 * step;
+    first =
+        ((first << depth_shift) & depth_bits) | (low + Keys{leaf[0], leaf[1], leaf[2], leaf[3]});
+    second =
+        ((second << depth_shift) & depth_bits) | (low + Keys{leaf[4], leaf[5], leaf[6], leaf[7]});
+    *reinterpret_cast<Keys*>(out) = first;
+    *reinterpret_cast<Keys*>(out + 4) = second;
+}
+
+[[gnu::always_inline]] inline void store_pixels(std::uint16_t* pixel, int at) {
+    *reinterpret_cast<Pixels*>(pixel) =
+        static_cast<std::uint16_t>(at) + Pixels{0, 1, 2, 3, 4, 5, 6, 7};
+}
+
+/// One more for the first `length`.
+[[gnu::always_inline]] inline void add_lengths(std::uint32_t* lengths, int length) {
+    using Signed = std::int32_t __attribute__((vector_size(32)));
+    const Signed is_in = Signed{0, 1, 2, 3, 4, 5, 6, 7} < length;  // -1 where it is
+    Lengths& all = *reinterpret_cast<Lengths*>(lengths);
+    all -= reinterpret_cast<const Lengths&>(is_in);
+}
+
 }  // namespace
+
+/// A triangle's depth in whole numbers, which wrap around: beside it they may be out of range.
+struct TransilluminationBuffer::DepthRamp {
+    std::uint64_t origin = 0, step = 0, row_step = 0;
+    bool is_steep = false;
+
+    DepthRamp(const Plane& depth, const TileRect& rect) {
+        constexpr double scale = 1.0 / (std::uint64_t{1} << depth_shift);
+        // Spans of what is steeper than that are one pixel long.
+        constexpr double steepest = 0x1p55;
+        is_steep = !(std::max(std::abs(depth.dx), std::abs(depth.dy)) * scale < steepest);
+        if (is_steep) return;
+        origin = to_whole(depth.at(rect.x0, rect.y0) * scale);
+        step = to_whole(depth.dx * scale);
+        row_step = to_whole(depth.dy * scale);
+    }
+    [[gnu::always_inline]] std::uint64_t at(int x, int y, const TileRect& rect,
+                                            const Plane& depth) const {
+        if (is_steep) [[unlikely]]
+            return static_cast<std::uint64_t>(std::clamp(depth.at(x, y), 0.0, 0x1p63)) >>
+                   depth_shift;
+        return origin + step * static_cast<std::uint64_t>(x - rect.x0) +
+               row_step * static_cast<std::uint64_t>(y - rect.y0);
+    }
+
+private:
+    static std::uint64_t to_whole(double x) {
+        return static_cast<std::uint64_t>(static_cast<std::int64_t>(x));
+    }
+};
 
 /// Through the vertices in the order of their numbers: triangles on the same three vertices then
 /// have the same depths to the last bit.
 TransilluminationBuffer::Plane TransilluminationBuffer::depth_plane(std::uint32_t root) const {
-    std::array<std::uint32_t, 3> v = mesh_.triangles[root].vertices;
-    if (v[0] > v[1]) std::swap(v[0], v[1]);
-    if (v[1] > v[2]) std::swap(v[1], v[2]);
-    if (v[0] > v[1]) std::swap(v[0], v[1]);
-    const ProjectedVertex &a = projected_[v[0]], &b = projected_[v[1]], &c = projected_[v[2]];
+    const auto& v = mesh_.triangles[root].vertices;
+    const auto [low, high] = std::minmax(v[0], v[1]);
+    const std::uint32_t least = std::min(low, v[2]), most = std::max(high, v[2]);
+    const std::uint32_t middle = std::max(low, std::min(high, v[2]));
+    const ProjectedVertex &a = projected_[least], &b = projected_[middle], &c = projected_[most];
     const double bx = b.x - a.x, by = b.y - a.y, cx = c.x - a.x, cy = c.y - a.y;
     const double scale = fixed_unit_ / (bx * cy - cx * by);
     const double zb = b.depth - a.depth, zc = c.depth - a.depth;
@@ -112,16 +175,16 @@ void TransilluminationBuffer::draw(std::uint32_t root, const TileRect& rect, Scr
     if (area == 0) return;
 
     const Plane depth = depth_plane(root);
+    const DepthRamp z_ramp(depth, rect);
 
     // The window's axes and the direction are right-handed: a positive area is seen from ahead.
-    const std::uint64_t facing = area > 0 ? 0x80000000u : 0u;
+    const bool from_ahead = area > 0;
+    const std::uint64_t facing = from_ahead ? 0x80000000u : 0u;
     const RootPatches& patches = patches_.roots[root];
     std::array<Plane, 2> b{};
     if (patches.level > 0) b = barycentric_planes(fixed, area);
-    if (area < 0) std::swap(fixed[1], fixed[2]);
-    // A slope that does not fit belongs to a span of one pixel, where it is not used.
-    const auto dz = static_cast<std::uint64_t>(
-        static_cast<std::int64_t>(std::clamp(depth.dx, -0x1p62, 0x1p62)));
+    const std::array<FixedPoint, 3> turning{fixed[0], fixed[from_ahead ? 1 : 2],
+                                            fixed[from_ahead ? 2 : 1]};
 
     const std::uint64_t low = facing | patches.first_leaf;
     const std::uint32_t* const cells = patches.mixed == RootPatches::uniform
@@ -134,33 +197,31 @@ void TransilluminationBuffer::draw(std::uint32_t root, const TileRect& rect, Scr
     std::uint16_t* pixel = scratch.pixel.data() + scratch.count;
     std::uint32_t* const lengths = scratch.first.data() + 1;
     const int width = rect.x1 - rect.x0;
-    std::array<std::uint64_t, block> ramp;
-    for (int i = 0; i < block; ++i) ramp[i] = static_cast<std::uint64_t>(i) * dz;
     scan_convert(
-        fixed, sub_pixel_bits_,
+        turning, sub_pixel_bits_,
         rect, [&](std::int32_t y, std::int32_t x0, std::int32_t x1) __attribute__((always_inline)) {
             int at = (y - rect.y0) * width + (x0 - rect.x0);
             int length = x1 - x0;
-            auto z = static_cast<std::uint64_t>(std::clamp(depth.at(x0, y), 0.0, 0x1p63));
+            std::uint64_t z = z_ramp.at(x0, y, rect, depth);
             auto s0 = static_cast<float>(b[0].at(x0, y)), t0 = static_cast<float>(b[1].at(x0, y));
-            // Whole blocks, of which the next span overwrites what is too much: short spans would
-            // mispredict a loop's end.
-            for (; length > 0; length -= block) {
+            // Whole blocks, of which the next span overwrites what is too much, and always one:
+            // short spans would mispredict a loop's end.
+            do {
                 const std::array<std::uint32_t, block> leaf =
                     patches.level == 0 ? std::array<std::uint32_t, block>{}
                                        : leaves_of_block(patches.level, cells, s0, ds, t0, dt);
-                for (int i = 0; i < block; ++i)
-                    out[i] = ((z + ramp[i]) & depth_bits) | (low + leaf[i]);
-                for (int i = 0; i < block; ++i) pixel[i] = static_cast<std::uint16_t>(at + i);
-                for (int i = 0; i < block; ++i) lengths[at + i] += i < length ? 1 : 0;
-                const int taken = std::min(length, block);
+                store_keys(out, z, z_ramp.step, low, leaf);
+                store_pixels(pixel, at);
+                add_lengths(lengths + at, length);
+                const int taken = std::clamp(length, 0, block);
                 out += taken;
                 pixel += taken;
                 at += block;
-                z += block * dz;
+                z += block * z_ramp.step;
                 s0 += block * ds;
                 t0 += block * dt;
-            }
+                length -= block;
+            } while (length > 0);
         });
     scratch.count = static_cast<std::size_t>(out - scratch.drawn.data());
 }

@@ -103,6 +103,7 @@ public:
 private:
     struct Scratch;
     struct Plane;
+    struct DepthRamp;
     struct ProjectedVertex {
         std::int32_t x, y;  ///< pixels / fixed_unit_
         double depth;       ///< in [0, 2^63)
