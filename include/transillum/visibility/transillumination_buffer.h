@@ -120,7 +120,7 @@ private:
                                             std::int64_t twice_area) const;
     bool are_coplanar(std::uint32_t root_a, std::uint32_t root_b) const;
     bool is_behind(Fragment a, Fragment b, int x, int y) const;
-    void sort_list(Fragment* begin, Fragment* end, int x, int y) const;
+    void order_near(Fragment* begin, Fragment* end, int x, int y) const;
 
     const SurfaceMesh& mesh_;
     const PatchHierarchy& patches_;
