@@ -41,6 +41,9 @@ constexpr std::uint64_t first_compared = 32;
 /// Longer blocks would leave the fixed-point sums too few bits.
 constexpr std::uint64_t longest_block = 1024;
 
+/// Share of what patches receive below which rounding makes a difference, too.
+constexpr double least_effect = 1e-6;
+
 /// The Monte-Carlo component is carried from here on: earlier, elements are mostly noise. Where
 /// that is automatic, the same number of directions again tells whether it is worth it.
 constexpr std::uint64_t first_carried = 128;
@@ -157,12 +160,17 @@ private:
             r.coverage *= scale;
         }
         done_ = sums.directions;
-        error_.inherit(sums.parts, component_);
+        error_.set_history(sums.error);
+        if (sums.patches != patches_ || sums.elements.glossy.size() != glossy.element_count)
+            error_.begin_anew(component_);
     }
 
     void begin_block() {
         if (representation_ == MonteCarlo::off && carries_from() <= done_) begin_carrying();
-        if (!balances_at(done_) || done_ > last_restart) return;
+        if (!balances_at(done_) || (done_ > last_restart && !restarts_)) return;
+        if (restarts_) error_.begin_anew(component_);
+        restarts_ = false;
+        restarted_at_ = done_;
         component_.restart();
         error_.restart();
         earlier_between_clusters_ = std::move(between_clusters_);
@@ -178,6 +186,8 @@ private:
 
     void begin_carrying() {
         const bool all = options_.averaging == Averaging::none;
+        // What elements alone brought is another, coarser estimate.
+        restarts_ = options_.monte_carlo != MonteCarlo::automatic && !options_.start;
         representation_ = carried_by(options_.monte_carlo, options_.averaging);
         if (representation_ == MonteCarlo::automatic) {
             representation_ = representation_of(representation_, patches_);
@@ -198,7 +208,10 @@ private:
                                     ? options_.target_error
                                     : relative_error_ * static_cast<double>(done_) /
                                           static_cast<double>(std::max(done_, options_.iterations));
-        if (!(residual_effect_ > expected)) transfer_.carry_no_more(done_);
+        if (!(residual_effect_ > std::max(expected, least_effect)))
+            transfer_.carry_no_more(done_);
+        else
+            restarts_ = true;
     }
 
     double mean_incoming() const {
@@ -219,7 +232,7 @@ private:
         done_ += directions;
         if (options_.averaging == Averaging::balanced) exchange_.collect(between_clusters_);
         if (balances_at(done_)) balance();
-        if (done_ >= 2 * last_restart) forget();
+        if (done_ >= 2 * restarted_at_) forget();
         if (done_ >= first_compared) estimate_error();
         if (effect_ && done_ >= effect_begin_ + first_carried / 2) effect_->begin_second_half();
         if (effect_ && done_ >= effect_begin_ + first_carried) decide_on_carrying();
@@ -296,7 +309,7 @@ private:
         if (options_.keep_sums)
             result.sums = std::make_shared<IterationSums>(
                 IterationSums{patches_, sides_, transfer_.pixel_size(), done_, component_.sums(),
-                              std::move(between_clusters_), error_.parts()});
+                              std::move(between_clusters_), error_.history()});
         return result;
     }
 
@@ -332,6 +345,8 @@ private:
     MonteCarlo representation_ = MonteCarlo::off;
     std::optional<ResidualEffect> effect_;  ///< while it is being measured
     std::uint64_t effect_begin_ = 0;
+    bool restarts_ = false;  ///< at the next power of two
+    std::uint64_t restarted_at_ = 0;
     double residual_effect_ = std::numeric_limits<double>::quiet_NaN();
     std::uint64_t done_ = 0;
     double relative_error_ = std::numeric_limits<double>::quiet_NaN();

@@ -20,7 +20,7 @@ struct IterationSums {
     std::uint64_t directions = 0;
     FiniteElementSums elements;
     ClusterTransfer between_clusters{0};
-    std::vector<DirectionPart> parts;  ///< of the average
+    ErrorHistory error;
 };
 
 /// The elements' sums, as they would be on other patches and bins: a part of a patch takes its

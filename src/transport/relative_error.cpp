@@ -90,21 +90,21 @@ ErrorModel fit_error_model(std::span<const AverageMove> moves) {
 void ErrorEstimate::add(std::uint64_t begin, std::uint64_t end, double weight) {
     const double share = weight * static_cast<double>(end - begin);
     const std::uint64_t quarter = std::max<std::uint64_t>(1, std::bit_floor(begin) / 4);
-    if (!parts_.empty() && parts_.back().end == begin && begin % quarter != 0) {
-        parts_.back().end = end;
-        parts_.back().share += share;
+    if (!now_.parts.empty() && now_.parts.back().end == begin && begin % quarter != 0) {
+        now_.parts.back().end = end;
+        now_.parts.back().share += share;
     } else {
-        parts_.push_back({begin, end, share});
+        now_.parts.push_back({begin, end, share});
     }
 }
 
 void ErrorEstimate::restart() {
-    earlier_ = std::move(parts_);
-    parts_.clear();
+    earlier_ = std::move(now_.parts);
+    now_.parts.clear();
 }
 
 void ErrorEstimate::recall() {
-    parts_.insert(parts_.begin(), earlier_.begin(), earlier_.end());
+    now_.parts.insert(now_.parts.begin(), earlier_.begin(), earlier_.end());
     earlier_.clear();
 }
 
@@ -125,44 +125,45 @@ double ErrorEstimate::sum_over_patches(Value value) const {
 }
 
 void ErrorEstimate::compare(const FiniteElementComponent& component) {
-    std::vector<float> now(component.patch_count());
-    for (std::uint32_t p = 0; p < now.size(); ++p)
-        now[p] = component.coverage(p) > 0.0 ? static_cast<float>(luminance(component.incoming(p)))
-                                             : -1.0f;
-    if (!last_.empty()) {
+    std::vector<float> seen(component.patch_count());
+    for (std::uint32_t p = 0; p < seen.size(); ++p)
+        seen[p] = component.coverage(p) > 0.0 ? static_cast<float>(luminance(component.incoming(p)))
+                                              : -1.0f;
+    if (!now_.last.empty()) {
         const auto both = [&](std::uint32_t p) {
-            return last_[p] >= 0.0f && now[p] >= 0.0f && component.reflects(p);
+            return now_.last[p] >= 0.0f && seen[p] >= 0.0f && component.reflects(p);
         };
         const double area = sum_over_patches([&](std::uint32_t p) { return both(p) ? 1.0 : 0.0; });
         const double square = sum_over_patches([&](std::uint32_t p) {
-            return both(p) ? std::pow(double{now[p]} - double{last_[p]}, 2.0) : 0.0;
+            return both(p) ? std::pow(double{seen[p]} - double{now_.last[p]}, 2.0) : 0.0;
         });
-        if (moves_.size() == most_moves || (moves_.size() == 1 && was_inherited_)) {
-            moves_.erase(moves_.begin());
-            was_inherited_ = false;
+        if (now_.moves.size() == most_moves || (now_.moves.size() == 1 && now_.jumps)) {
+            now_.moves.erase(now_.moves.begin());
+            now_.jumps = false;
         }
-        moves_.push_back({difference(parts_, last_parts_), area > 0.0 ? square / area : 0.0});
-        const bool moved = std::all_of(moves_.begin(), moves_.end(),
+        now_.moves.push_back(
+            {difference(now_.parts, now_.last_parts), area > 0.0 ? square / area : 0.0});
+        const bool moved = std::all_of(now_.moves.begin(), now_.moves.end(),
                                        [](const AverageMove& m) { return m.mean_square > 0.0; });
-        model_ = moved ? fit_error_model(moves_) : ErrorModel{};
+        now_.model = moved ? fit_error_model(now_.moves) : ErrorModel{};
     }
-    last_ = std::move(now);
-    last_parts_ = parts_;
+    now_.last = std::move(seen);
+    now_.last_parts = now_.parts;
 }
 
-void ErrorEstimate::inherit(const std::vector<DirectionPart>& parts,
-                            const FiniteElementComponent& component) {
-    parts_ = parts;
+void ErrorEstimate::begin_anew(const FiniteElementComponent& component) {
+    now_.moves.clear();
+    now_.last.clear();
     compare(component);
-    was_inherited_ = true;
+    now_.jumps = true;
 }
 
 double ErrorEstimate::variance() const {
-    if (moves_.empty() || parts_.empty()) return quiet_nan();
-    const std::vector<DirectionPart> parts = with_sum(parts_, 1.0);
+    if (now_.moves.empty() || now_.parts.empty()) return quiet_nan();
+    const std::vector<DirectionPart> parts = with_sum(now_.parts, 1.0);
     // Parts that are no nets, at the end of a run, may seem to do better than all together could.
-    const double net = std::pow(static_cast<double>(parts.back().end), -2.0 * model_.a);
-    return model_.c * std::max(net, variance_of_parts(parts, model_.a));
+    const double net = std::pow(static_cast<double>(parts.back().end), -2.0 * now_.model.a);
+    return now_.model.c * std::max(net, variance_of_parts(parts, now_.model.a));
 }
 
 ErrorEstimate::Sums ErrorEstimate::measure(const FiniteElementComponent& component) const {

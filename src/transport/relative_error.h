@@ -39,6 +39,16 @@ struct ErrorModel {
 /// \pre there is one, and none is 0
 [[nodiscard]] ErrorModel fit_error_model(std::span<const AverageMove> moves);
 
+/// What an estimate has learnt, for another to go on from.
+struct ErrorHistory {
+    std::vector<DirectionPart> parts;  ///< shares: sums of weights
+    std::vector<float> last;           ///< luminance when last compared; -1: unseen
+    std::vector<DirectionPart> last_parts;
+    std::vector<AverageMove> moves;
+    ErrorModel model;
+    bool jumps = false;  ///< the next or only move is larger than the error alone makes it
+};
+
 class ErrorEstimate {
 public:
     /// Keeps references. \param leaf_area one a leaf
@@ -54,10 +64,12 @@ public:
     /// Notes how far the average has moved since the last call. \pre at a power of two of
     /// directions
     void compare(const FiniteElementComponent& component);
-    /// Goes on from sums of other elements. The first move from there on is larger than the error
-    /// alone makes it, and only counts while there is no other.
-    void inherit(const std::vector<DirectionPart>& parts, const FiniteElementComponent& component);
-    [[nodiscard]] const std::vector<DirectionPart>& parts() const { return parts_; }
+    /// Goes on from another's, on the same elements.
+    void set_history(ErrorHistory history) { now_ = std::move(history); }
+    [[nodiscard]] const ErrorHistory& history() const { return now_; }
+    /// The average is of something else from now on, as of other elements: moves so far say nothing
+    /// of it, and the next one only while there is no other.
+    void begin_anew(const FiniteElementComponent& component);
 
     /// Root mean square standard error over the mean, both weighted with area, of the luminance
     /// that arrives where it is reflected; NaN where nothing is known.
@@ -78,12 +90,8 @@ private:
 
     std::span<const double> leaf_area_;
     const Workers& workers_;
-    std::vector<DirectionPart> parts_, earlier_;  ///< shares: sums of weights
-    std::vector<float> last_;                     ///< luminance when last compared; -1: unseen
-    std::vector<DirectionPart> last_parts_;
-    std::vector<AverageMove> moves_;
-    bool was_inherited_ = false;
-    ErrorModel model_;
+    ErrorHistory now_;
+    std::vector<DirectionPart> earlier_;  ///< set aside by the last restart
 };
 
 }  // namespace transillum
