@@ -33,6 +33,8 @@ public:
     /// From now on what elements send along a bundle is kept for residual() to tell; nobody
     /// receives anything.
     void record(MonteCarlo representation);
+    /// Do those before number `next` form nets, as far as their number allows it?
+    [[nodiscard]] bool is_even(std::uint64_t next) const { return order_.is_even(next); }
     /// Null unless carried.
     [[nodiscard]] const MonteCarloComponent* residual() const { return residual_.get(); }
     [[nodiscard]] MonteCarloComponent* residual() { return residual_.get(); }

@@ -31,6 +31,10 @@ void DirectionOrder::unshuffle(std::uint64_t next) {
     until_ = begin == next ? begin : end;
 }
 
+bool DirectionOrder::is_even(std::uint64_t next) const {
+    return next <= from_ || next >= until_ || block_of(next).first == next;
+}
+
 std::uint64_t DirectionOrder::at(std::uint64_t i) {
     if (i < from_ || i >= until_) return i;
     auto [begin, end] = block_of(i);

@@ -21,6 +21,9 @@ public:
     /// Number in the sequence of the direction that is taken as number i.
     [[nodiscard]] std::uint64_t at(std::uint64_t i);
 
+    /// Are those before number `next` the first of the sequence, too?
+    [[nodiscard]] bool is_even(std::uint64_t next) const;
+
     /// A multiple of it begins every block from there on.
     static constexpr std::uint64_t least_block = 128, most_block = 1024;
 

@@ -15,6 +15,8 @@ constexpr double least_fragments = 64.0;
 /// Likewise one that light met less often, of which transfers are a sample: only some rows of
 /// pixels, and none from before the last restart.
 constexpr double least_lit_fragments = 8.0 * least_fragments;
+/// Of its cluster's mean, below which a patch does not take that for its own.
+constexpr double least_share = 1.0 / 16.0;
 /// No balance scales by more than this at once.
 constexpr double largest_factor = 32.0;
 
@@ -183,9 +185,12 @@ void balance_energy(FiniteElementComponent& component, const Clusters& clusters,
             continue;
         }
         if (fragments[i] < least_fragments) continue;
-        // What no light has reached stays dark: it may be sealed off from the rest of its cluster.
-        const SpectrumSum reached(glm::greaterThan(component.incoming(p), SpectrumSum(0.0)));
-        component.set_incoming(p, reached * target[i]);
+        // What hardly any light has reached stays dark: it may be sealed off from the rest of its
+        // cluster but for a leak, and such a place would forget its start slowly.
+        const SpectrumSum own = component.incoming(p);
+        const SpectrumSum least = least_share * states[i].incoming / states[i].coverage;
+        const SpectrumSum reached(glm::greaterThan(own, least));
+        component.set_incoming(p, glm::mix(own * factor[i], target[i], reached));
     }
 }
 

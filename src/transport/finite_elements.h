@@ -93,6 +93,9 @@ public:
     /// Mean radiance that arrives at a patch, cosine-weighted; 0 where nothing is known.
     [[nodiscard]] SpectrumSum incoming(std::uint32_t patch) const;
     [[nodiscard]] double coverage(std::uint32_t patch) const { return sums_[patch].coverage; }
+    [[nodiscard]] bool reflects(std::uint32_t patch) const {
+        return glossy_.side_of(patch) || max_channel(sources_.albedo[patch]) > 0.0f;
+    }
     void scale_incoming(std::uint32_t patch, const SpectrumSum& factor);
     void set_incoming(std::uint32_t patch, const SpectrumSum& incoming);
     /// Since the average was begun.

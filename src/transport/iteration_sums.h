@@ -4,6 +4,7 @@
 
 #include "transport/exchange.h"
 #include "transport/finite_elements.h"
+#include "transport/relative_error.h"
 
 #include <transillum/geometry/leaf_shares.h>
 #include <transillum/transport/iterate.h>
@@ -19,6 +20,7 @@ struct IterationSums {
     std::uint64_t directions = 0;
     FiniteElementSums elements;
     ClusterTransfer between_clusters{0};
+    ErrorHistory error;
 };
 
 /// The elements' sums, as they would be on other patches and bins: a part of a patch takes its

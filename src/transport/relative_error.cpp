@@ -1,54 +1,204 @@
 #include "transport/relative_error.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 
 namespace transillum {
 
-double estimate_relative_error(const FiniteElementComponent& component,
-                               std::span<const double> leaf_area, const Workers& workers) {
-    struct Sums {
-        double variance = 0.0, mean = 0.0, seen = 0.0, unseen = 0.0, untold = 0.0;
-    };
-    constexpr std::uint32_t range = 1 << 14;  // fixed, so that sums don't depend on the threads
-    std::vector<Sums> partial(component.patch_count() / range + 1);
-    workers.for_ranges(partial.size(), 1, [&](std::size_t begin, std::size_t end, int) {
-        for (std::size_t r = begin; r < end; ++r) {
-            const auto first = static_cast<std::uint32_t>(r * range);
-            for (std::uint32_t p = first; p < std::min(first + range, component.patch_count());
-                 ++p) {
-                const double area = leaf_area[p % leaf_area.size()];
-                const bool seen = component.coverage(p) > 0.0;
-                (seen ? partial[r].seen : partial[r].unseen) += area;
-                if (!seen) continue;
-                partial[r].mean += area * luminance(component.incoming(p));
-                const double variance = luminance(component.incoming_variance(p));
-                if (std::isnan(variance))
-                    partial[r].untold += area;
-                else
-                    partial[r].variance += area * variance;
-            }
-        }
-    });
-    Sums all;
-    for (const Sums& s : partial) {
-        all.mean += s.mean;
-        all.variance += s.variance;
-        all.seen += s.seen;
-        all.unseen += s.unseen;
-        all.untold += s.untold;
+namespace {
+
+/// Of how many octaves moves count: what comes before says little of now.
+constexpr std::size_t most_moves = 4;
+/// What is usual of a, and how sure that is; and of the logarithm of a move's mean square, whose
+/// errors in space hang together.
+constexpr double usual_a = 0.75, spread_of_a = 0.15, spread_of_moves = 0.4;
+constexpr double least_a = 0.25, most_a = 1.25, step_of_a = 0.05;
+
+double quiet_nan() {
+    return std::numeric_limits<double>::quiet_NaN();
+}
+
+/// Shares that add up to `sum`.
+std::vector<DirectionPart> with_sum(std::vector<DirectionPart> parts, double sum) {
+    double all = 0.0;
+    for (const DirectionPart& p : parts) all += p.share;
+    for (DirectionPart& p : parts) p.share *= sum / all;
+    return parts;
+}
+
+/// a less b. Parts of both begin alike.
+std::vector<DirectionPart> difference(const std::vector<DirectionPart>& a,
+                                      const std::vector<DirectionPart>& b) {
+    std::vector<DirectionPart> result = with_sum(a, 1.0);
+    for (const DirectionPart& p : with_sum(b, -1.0)) {
+        const auto same = std::find_if(result.begin(), result.end(),
+                                       [&](const auto& r) { return r.begin == p.begin; });
+        if (same == result.end())
+            result.push_back(p);
+        else
+            same->share += p.share;
     }
-    if (all.seen == 0.0) return std::numeric_limits<double>::quiet_NaN();
+    std::sort(result.begin(), result.end(),
+              [](const auto& p, const auto& q) { return p.begin < q.begin; });
+    return result;
+}
+
+}  // namespace
+
+double variance_of_parts(std::span<const DirectionPart> parts, double a) {
+    std::array<double, 65> of_net;  // by the power of two of directions
+    for (std::size_t k = 0; k < of_net.size(); ++k)
+        of_net[k] = std::exp2(-2.0 * a * static_cast<double>(k));
+    const double between = 2.0 - std::exp2(2.0 * a);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        const DirectionPart& p = parts[i];
+        sum += p.share * p.share * std::pow(static_cast<double>(p.end - p.begin), -2.0 * a);
+        for (std::size_t j = 0; j < i; ++j) {
+            const auto net = static_cast<std::size_t>(std::bit_width(parts[j].begin ^ (p.end - 1)));
+            sum += 2.0 * p.share * parts[j].share * between * of_net[net];
+        }
+    }
+    return sum;
+}
+
+ErrorModel fit_error_model(std::span<const AverageMove> moves) {
+    ErrorModel best;
+    double least = std::numeric_limits<double>::infinity();
+    for (double a = least_a; a < most_a + 0.5 * step_of_a; a += step_of_a) {
+        double mean = 0.0, square = 0.0;
+        for (const AverageMove& m : moves) {
+            const double x = std::log(m.mean_square / variance_of_parts(m.difference, a));
+            mean += x;
+            square += x * x;
+        }
+        const auto n = static_cast<double>(moves.size());
+        mean /= n;
+        const double misfit = (square - n * mean * mean) / (spread_of_moves * spread_of_moves) +
+                              std::pow((a - usual_a) / spread_of_a, 2.0);
+        if (misfit < least) {
+            least = misfit;
+            best = {std::exp(mean), a};
+        }
+    }
+    return best;
+}
+
+void ErrorEstimate::add(std::uint64_t begin, std::uint64_t end, double weight) {
+    const double share = weight * static_cast<double>(end - begin);
+    const std::uint64_t quarter = std::max<std::uint64_t>(1, std::bit_floor(begin) / 4);
+    if (!now_.parts.empty() && now_.parts.back().end == begin && begin % quarter != 0) {
+        now_.parts.back().end = end;
+        now_.parts.back().share += share;
+    } else {
+        now_.parts.push_back({begin, end, share});
+    }
+}
+
+void ErrorEstimate::restart() {
+    earlier_ = std::move(now_.parts);
+    now_.parts.clear();
+}
+
+void ErrorEstimate::recall() {
+    now_.parts.insert(now_.parts.begin(), earlier_.begin(), earlier_.end());
+    earlier_.clear();
+}
+
+template <class Value>
+double ErrorEstimate::sum_over_patches(Value value) const {
+    constexpr std::size_t range = 1 << 14;  // fixed, so that sums don't depend on the threads
+    const std::size_t patches = 2 * leaf_area_.size();
+    std::vector<double> partial(patches / range + 1);
+    workers_.for_ranges(partial.size(), 1, [&](std::size_t begin, std::size_t end, int) {
+        for (std::size_t r = begin; r < end; ++r)
+            for (std::size_t p = r * range; p < std::min((r + 1) * range, patches); ++p)
+                partial[r] +=
+                    leaf_area_[p % leaf_area_.size()] * value(static_cast<std::uint32_t>(p));
+    });
+    double sum = 0.0;
+    for (const double s : partial) sum += s;
+    return sum;
+}
+
+void ErrorEstimate::compare(const FiniteElementComponent& component) {
+    std::vector<float> seen(component.patch_count());
+    for (std::uint32_t p = 0; p < seen.size(); ++p)
+        seen[p] = component.coverage(p) > 0.0 ? static_cast<float>(luminance(component.incoming(p)))
+                                              : -1.0f;
+    if (!now_.last.empty()) {
+        const auto both = [&](std::uint32_t p) {
+            return now_.last[p] >= 0.0f && seen[p] >= 0.0f && component.reflects(p);
+        };
+        const double area = sum_over_patches([&](std::uint32_t p) { return both(p) ? 1.0 : 0.0; });
+        const double square = sum_over_patches([&](std::uint32_t p) {
+            return both(p) ? std::pow(double{seen[p]} - double{now_.last[p]}, 2.0) : 0.0;
+        });
+        if (now_.moves.size() == most_moves || (now_.moves.size() == 1 && now_.jumps)) {
+            now_.moves.erase(now_.moves.begin());
+            now_.jumps = false;
+        }
+        now_.moves.push_back(
+            {difference(now_.parts, now_.last_parts), area > 0.0 ? square / area : 0.0});
+        const bool moved = std::all_of(now_.moves.begin(), now_.moves.end(),
+                                       [](const AverageMove& m) { return m.mean_square > 0.0; });
+        now_.model = moved ? fit_error_model(now_.moves) : ErrorModel{};
+    }
+    now_.last = std::move(seen);
+    now_.last_parts = now_.parts;
+}
+
+void ErrorEstimate::begin_anew(const FiniteElementComponent& component) {
+    now_.moves.clear();
+    now_.last.clear();
+    compare(component);
+    now_.jumps = true;
+}
+
+double ErrorEstimate::variance() const {
+    if (now_.moves.empty() || now_.parts.empty()) return quiet_nan();
+    const std::vector<DirectionPart> parts = with_sum(now_.parts, 1.0);
+    // Parts that are no nets, at the end of a run, may seem to do better than all together could.
+    const double net = std::pow(static_cast<double>(parts.back().end), -2.0 * now_.model.a);
+    return now_.model.c * std::max(net, variance_of_parts(parts, now_.model.a));
+}
+
+ErrorEstimate::Sums ErrorEstimate::measure(const FiniteElementComponent& component) const {
+    const auto sum = [&](auto value) {
+        return sum_over_patches(
+            [&](std::uint32_t p) { return component.reflects(p) ? value(p) : 0.0; });
+    };
+    const auto seen = [&](std::uint32_t p) { return component.coverage(p) > 0.0; };
+    const auto told = [&](std::uint32_t p) {
+        return seen(p) && is_finite(component.incoming_variance(p));
+    };
+    Sums sums;
+    sums.seen = sum([&](std::uint32_t p) { return seen(p) ? 1.0 : 0.0; });
+    sums.told = sum([&](std::uint32_t p) { return told(p) ? 1.0 : 0.0; });
+    sums.all = sum([&](std::uint32_t) { return 1.0; });
+    sums.mean =
+        sum([&](std::uint32_t p) { return seen(p) ? luminance(component.incoming(p)) : 0.0; });
+    sums.variance = sum(
+        [&](std::uint32_t p) { return told(p) ? luminance(component.incoming_variance(p)) : 0.0; });
+    return sums;
+}
+
+double ErrorEstimate::relative_error(const FiniteElementComponent& component) const {
+    const Sums all = measure(component);
+    if (all.seen == 0.0) return quiet_nan();
     if (all.mean == 0.0) return 0.0;
-    // Fewer might seem to agree by chance.
-    constexpr int least_blocks = 8;
-    if (component.blocks() < least_blocks) return std::numeric_limits<double>::quiet_NaN();
     // Of a patch that hardly any direction has met nothing is known: an error as large as the mean.
     const double mean = all.mean / all.seen;
-    return std::sqrt((all.variance + (all.unseen + all.untold) * mean * mean) /
-                     (all.seen + all.unseen)) /
-           mean;
+    return std::sqrt((all.told * variance() + (all.all - all.told) * mean * mean) / all.all) / mean;
+}
+
+double ErrorEstimate::correction(const FiniteElementComponent& component) const {
+    const Sums all = measure(component);
+    const double factor = all.told * variance() / all.variance;
+    return std::isfinite(factor) ? factor : 1.0;
 }
 
 }  // namespace transillum

@@ -7,14 +7,20 @@ namespace transillum::benchmarks {
 
 namespace {
 
-void add_polygon(Scene& scene, const std::vector<glm::dvec3>& corners) {
+void add_polygon(Scene& scene, const std::vector<std::uint32_t>& corners) {
     scene.polygons.push_back({static_cast<std::uint32_t>(scene.corners.size()),
                               static_cast<std::uint32_t>(corners.size()), 0, 0,
                               static_cast<std::uint32_t>(scene.polygons.size())});
+    scene.corners.insert(scene.corners.end(), corners.begin(), corners.end());
+}
+
+void add_polygon(Scene& scene, const std::vector<glm::dvec3>& corners) {
+    std::vector<std::uint32_t> numbers;
     for (const glm::dvec3& p : corners) {
-        scene.corners.push_back(static_cast<std::uint32_t>(scene.positions.size()));
+        numbers.push_back(static_cast<std::uint32_t>(scene.positions.size()));
         scene.positions.push_back(p);
     }
+    add_polygon(scene, numbers);
 }
 
 /// The unit cube, fronts inwards.
@@ -30,12 +36,21 @@ void add_room(Scene& scene) {
 
 void add_sphere(Scene& scene, const glm::dvec3& centre, double radius, int rings) {
     const int segments = 2 * rings;
+    const auto first = static_cast<std::uint32_t>(scene.positions.size());
+    for (int r = 0; r <= rings; ++r)
+        for (int s = 0; s < (r == 0 || r == rings ? 1 : segments); ++s) {
+            const double theta = std::numbers::pi * r / rings;
+            const double phi = 2.0 * std::numbers::pi * s / segments;
+            const double sine = r == 0 || r == rings ? 0.0 : std::sin(theta);
+            scene.positions.push_back(centre + radius * glm::dvec3(sine * std::cos(phi),
+                                                                   sine * std::sin(phi),
+                                                                   std::cos(theta)));
+        }
     const auto at = [&](int ring, int segment) {
-        const double theta = std::numbers::pi * ring / rings;
-        const double phi = 2.0 * std::numbers::pi * (segment % segments) / segments;
-        const double sine = ring == 0 || ring == rings ? 0.0 : std::sin(theta);
-        return centre +
-               radius * glm::dvec3(sine * std::cos(phi), sine * std::sin(phi), std::cos(theta));
+        if (ring == 0) return first;
+        const int before = 1 + (ring - 1) * segments;
+        return first +
+               static_cast<std::uint32_t>(before + (ring == rings ? 0 : segment % segments));
     };
     for (int r = 0; r < rings; ++r)
         for (int s = 0; s < segments; ++s) {
@@ -46,7 +61,7 @@ void add_sphere(Scene& scene, const glm::dvec3& centre, double radius, int rings
 
 }  // namespace
 
-SurfaceMesh room_of_spheres(int spheres, int rings) {
+Scene scene_of_spheres(int spheres, int rings) {
     Scene scene;
     scene.path = "room of spheres";
     scene.objects = {"room"};
@@ -57,8 +72,12 @@ SurfaceMesh room_of_spheres(int spheres, int rings) {
         const glm::dvec3 cell(i % spheres, i / spheres % spheres, i / spheres / spheres);
         add_sphere(scene, (cell + 0.5) / double(spheres), 0.35 / spheres, rings);
     }
+    return scene;
+}
+
+SurfaceMesh room_of_spheres(int spheres, int rings) {
     Monitor silent;
-    return build_surface(scene, {}, silent);
+    return build_surface(scene_of_spheres(spheres, rings), {}, silent);
 }
 
 }  // namespace transillum::benchmarks

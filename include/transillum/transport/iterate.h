@@ -52,7 +52,9 @@ struct IterationSums;
 
 struct IterationOptions {
     std::uint64_t iterations = 1024;  ///< most directions, each transferred both ways
-    double target_error = 0.0;        ///< stop when the estimated relative error is below; 0: never
+    /// Stop when the estimated relative error is below it by a fifth, so that the true one most
+    /// likely is below, too; 0: never.
+    double target_error = 0.0;
     double seconds =
         0.0;  ///< stop after that time; 0: never. The result then depends on the machine's speed
     double pixel_size = 0.0;  ///< of the transillumination buffer [scene units]
@@ -93,9 +95,9 @@ struct PatchSources {
 struct TransportResult {
     std::vector<Spectrum> irradiance;  ///< one a patch, of emission and direct after any number of
                                        ///< reflections [W m^-2]
-    /// Of the irradiance [W m^-2], from the spread between blocks of directions; it overstates, as
-    /// blocks of a low-discrepancy sequence make up for each other. As large as the irradiance
-    /// where there were too few blocks to tell.
+    /// Of the irradiance [W m^-2], from the spread between blocks of directions, scaled to agree
+    /// with the relative error: blocks of a low-discrepancy sequence make up for each other. As
+    /// large as the irradiance where there were too few blocks to tell.
     std::vector<Spectrum> standard_error;
     std::vector<float> coverage;            ///< fragments seen, over all directions
     std::vector<Spectrum> glossy_elements;  ///< as glossy_sides.h lays them out

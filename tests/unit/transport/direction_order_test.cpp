@@ -47,6 +47,17 @@ TEST(DirectionOrder, LosesNoneWhereItChanges) {
     }
 }
 
+TEST(DirectionOrder, IsEvenAtTheEndsOfBlocks) {
+    DirectionOrder order(1);
+    EXPECT_TRUE(order.is_even(300));
+    order.shuffle(256);
+    EXPECT_TRUE(order.is_even(200));
+    EXPECT_TRUE(order.is_even(512));
+    EXPECT_FALSE(order.is_even(300));
+    EXPECT_TRUE(order.is_even(3072));
+    EXPECT_FALSE(order.is_even(2560));
+}
+
 TEST(DirectionOrder, LeavesFewDirectionsWhereTheyWere) {
     DirectionOrder order(3), other(4);
     order.shuffle(0);

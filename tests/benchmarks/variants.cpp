@@ -1,0 +1,57 @@
+#include "benchmarks/variants.h"
+
+namespace transillum::benchmarks {
+
+const std::vector<Variant>& all_variants() {
+    static const std::vector<Variant> variants{
+        {"plain bundles", FirstShot::off, Averaging::none, MonteCarlo::off, MonteCarloShading::off,
+         0, 4096},
+        {"+ first shot", FirstShot::hemicube, Averaging::none, MonteCarlo::off,
+         MonteCarloShading::off, 0, 4096},
+        {"+ finite elements, 1/m", FirstShot::hemicube, Averaging::paper, MonteCarlo::off,
+         MonteCarloShading::off, 0, 1024},
+        {"+ finite elements", FirstShot::hemicube, Averaging::balanced, MonteCarlo::off,
+         MonteCarloShading::off, 0, 1024},
+        {"+ subpatch", FirstShot::hemicube, Averaging::balanced, MonteCarlo::subpatch,
+         MonteCarloShading::subpatch, 0, 1024},
+        {"+ wavefront", FirstShot::hemicube, Averaging::balanced, MonteCarlo::wavefront,
+         MonteCarloShading::wavefront, 0, 1024},
+        {"subpatch in the picture alone", FirstShot::hemicube, Averaging::balanced, MonteCarlo::off,
+         MonteCarloShading::subpatch, 0, 1024},
+        {"rays in the picture", FirstShot::hemicube, Averaging::balanced, MonteCarlo::off,
+         MonteCarloShading::rays, 0, 1024},
+        {"+ refinement, rays", FirstShot::hemicube, Averaging::balanced, MonteCarlo::off,
+         MonteCarloShading::rays, 2, 1024},
+        {"+ refinement, subpatch", FirstShot::hemicube, Averaging::balanced, MonteCarlo::subpatch,
+         MonteCarloShading::subpatch, 2, 1024},
+    };
+    return variants;
+}
+
+Solution bake_variant(const Variant& v, std::uint64_t directions, const Scene& scene,
+                      const BakeOptions& common, const Workers& workers) {
+    Monitor silent;
+    BakeOptions options = common;
+    options.light.first_shot = v.first_shot;
+    options.iteration.averaging = v.averaging;
+    options.iteration.monte_carlo = v.carried;
+    options.iteration.iterations = directions;
+    options.refinement.phases = v.refinement;
+    options.refinement.direct = false;
+    return bake(scene, options, workers, silent);
+}
+
+Image render_variant(const Variant& v, std::uint64_t directions, const Solution& solution,
+                     const View& view, const Workers& workers) {
+    Monitor silent;
+    RenderOptions options;
+    options.width = view.width;
+    options.height = view.height;
+    options.monte_carlo = v.shown;
+    options.iterations = v.shown == MonteCarloShading::off ? 1 : static_cast<int>(directions);
+    options.seed = solution.seed;
+    return render_solution(solution, choose_camera(solution.cameras, solution.surface, view.camera),
+                           options, workers, silent);
+}
+
+}  // namespace transillum::benchmarks
