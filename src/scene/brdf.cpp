@@ -62,6 +62,24 @@ Spectrum evaluate_diffuse(const Brdf& brdf, const glm::vec3& in, const glm::vec3
     return brdf.diffuse * (inv_pi * coupling / mean_diffuse_coupling(brdf));
 }
 
+Brdf widened(const Brdf& brdf, float solid_angle) {
+    constexpr float pi = std::numbers::pi_v<float>;
+    /// Of the lobe's own solid angle: less does not show.
+    constexpr float least = 0.01f;
+    Brdf wide = brdf;
+    if (brdf.lobe == Lobe::max_phong) {
+        const float own = 2.0f * pi / (brdf.shininess + 2.0f);
+        if (solid_angle > least * own)
+            wide.shininess = std::max(least_shininess, 2.0f * pi / (own + solid_angle) - 2.0f);
+    }
+    if (brdf.lobe == Lobe::ggx) {
+        const float own = 4.0f * pi * brdf.alpha * brdf.alpha;
+        if (solid_angle > least * own)
+            wide.alpha = std::min(1.0f, std::sqrt((own + solid_angle) / (4.0f * pi)));
+    }
+    return wide;
+}
+
 Spectrum evaluate_lobe(const Brdf& brdf, const glm::vec3& in, const glm::vec3& out) {
     if (!above(in) || !above(out)) return Spectrum(0.0f);
     switch (brdf.lobe) {

@@ -30,8 +30,10 @@ void append_incoming_light(const Solution& solution, std::uint32_t patch,
     for (std::size_t i = 0; i < light.columns(); ++i) {
         const auto share = static_cast<float>(light.share(patch, i));
         if (!(share > 0.0f)) continue;
-        incoming.push_back({raised(local_from_world * light.direction(patch, i, centre)),
-                            light.light(i).emitted * share});
+        const LightSample& sample = light.light(i);
+        const glm::vec3 way = raised(local_from_world * light.direction(patch, i, centre));
+        const bool has_extent = sample.kind == LightSample::Kind::area;
+        incoming.push_back({way, sample.emitted * share, has_extent ? share / way.z : 0.0f});
     }
 }
 

@@ -83,9 +83,9 @@ float GlossyElements::direct_peak(const GlossySide& side, std::uint32_t patch) c
     for (std::uint32_t i = sources_.first_incoming[patch]; i < sources_.first_incoming[patch + 1];
          ++i) {
         const IncomingLight& l = sources_.incoming[i];
-        sum +=
-            l.irradiance * (2.0f * evaluate_lobe(brdf(side), l.direction, mirrored(l.direction)) +
-                            sources_.albedo[patch]);
+        const Brdf f = widened(brdf(side), l.solid_angle);
+        sum += l.irradiance * (2.0f * evaluate_lobe(f, l.direction, mirrored(l.direction)) +
+                               sources_.albedo[patch]);
     }
     return max_channel(sum);
 }
@@ -98,8 +98,8 @@ Spectrum GlossyElements::direct_towards(const GlossySide& side, std::uint32_t pa
     for (std::uint32_t i = sources_.first_incoming[patch]; i < sources_.first_incoming[patch + 1];
          ++i) {
         const IncomingLight& l = sources_.incoming[i];
-        sum += l.irradiance *
-               (lambert * diffuse_coupling(f, l.direction.z) + evaluate_lobe(f, l.direction, out));
+        sum += l.irradiance * (lambert * diffuse_coupling(f, l.direction.z) +
+                               evaluate_lobe(widened(f, l.solid_angle), l.direction, out));
     }
     return sum;
 }

@@ -77,6 +77,8 @@ Hemicube::Hemicube(const SurfaceMesh& mesh, const PatchHierarchy& patches, int r
       resolution_(resolution),
       sums_(patches.patch_count()),
       views_(patches.patch_count()) {
+    for (std::uint32_t leaf = 0; leaf < patches.leaf_count; ++leaf)
+        leaf_area_.push_back(area_of_leaf(mesh, patches, leaf));
     if (resolution < 16 || resolution > 4096 || resolution % 2 != 0)
         throw UsageError("hemicube resolution " + std::to_string(resolution) +
                          "; accepted: 16 to 4096, even");
@@ -93,11 +95,27 @@ const std::vector<PatchView>& Hemicube::look(const glm::dvec3& position, const g
     const double pixel = 2.0 / resolution_;
     const glm::dvec3 &x = frame[0], &y = frame[1], &z = frame[2];
     const int half = resolution_ / 2;
-    return look_through({{x, y, z, z, resolution_, resolution_, -1.0, pixel},
-                         {y, z, x, z, resolution_, half, 0.0, pixel},
-                         {-y, z, -x, z, resolution_, half, 0.0, pixel},
-                         {-x, z, y, z, resolution_, half, 0.0, pixel},
-                         {x, z, -y, z, resolution_, half, 0.0, pixel}});
+    look_through({{x, y, z, z, resolution_, resolution_, -1.0, pixel},
+                  {y, z, x, z, resolution_, half, 0.0, pixel},
+                  {-y, z, -x, z, resolution_, half, 0.0, pixel},
+                  {-x, z, y, z, resolution_, half, 0.0, pixel},
+                  {x, z, -y, z, resolution_, half, 0.0, pixel}});
+    keep_flux();
+    return views_;
+}
+
+/// Patches of few pixels, or none, have their share but for an error: together they would receive
+/// more than is sent, or less.
+void Hemicube::keep_flux() {
+    double sent = 0.0, arriving = 0.0;
+    for (std::uint32_t p = 0; p < views_.size(); ++p) {
+        sent += sums_[p].seen;
+        arriving += leaf_area_[patches_.leaf_of_patch(p)] * double{views_[p].mean_kernel} *
+                    views_[p].visibility;
+    }
+    if (!(arriving > 0.0)) return;
+    const auto factor = static_cast<float>(sent / arriving);
+    for (PatchView& view : views_) view.mean_kernel *= factor;
 }
 
 const std::vector<PatchView>& Hemicube::look_around(const glm::dvec3& position,
@@ -271,7 +289,7 @@ PatchView Hemicube::view_of(const PatchSums& sums, std::uint32_t patch) const {
     const std::uint32_t leaf = patches_.leaf_of_patch(patch);
     const double kernel = distribution_ ? sums.covered / sums.area
                           : sums.pixels >= enough_pixels
-                              ? sums.covered / area_of_leaf(mesh_, patches_, leaf)
+                              ? sums.covered / leaf_area_[leaf]
                               : sums.covered / sums.area * front_share(leaf);
     if (!(sums.covered > 0.0)) return {};
     return {static_cast<float>(kernel),

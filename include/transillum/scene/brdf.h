@@ -32,6 +32,10 @@ struct Brdf {
     float alpha = 1.0f;                 ///< GGX: roughness squared, at least least_alpha
 };
 
+/// With its lobe as wide as it becomes by light from a small solid angle [sr] about a direction,
+/// taken for that direction: what is reflected of it then never exceeds what it shines with.
+[[nodiscard]] Brdf widened(const Brdf& brdf, float solid_angle);
+
 /// Of the material's uniform values. A lobe that reflects nothing is left out.
 [[nodiscard]] Brdf brdf_of(const Material& material);
 

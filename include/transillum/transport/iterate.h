@@ -71,6 +71,7 @@ struct IterationOptions {
 struct IncomingLight {
     glm::vec3 direction{0.0f, 0.0f, 1.0f};  ///< unit, towards the light, in the side's bin_frame
     Spectrum irradiance{0.0f};              ///< [W m^-2]
+    float solid_angle = 0.0f;  ///< that it comes from [sr]; 0: of a light without extent
 };
 
 /// What every patch contributes on its own: one entry a patch of the hierarchy.

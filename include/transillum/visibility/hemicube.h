@@ -33,9 +33,8 @@ public:
     ~Hemicube();
 
     /// The view from `position`, upwards along the third column of `frame`. One entry a patch.
-    /// Where patches have some dozens of pixels, flux is kept: the sum of area * mean_kernel *
-    /// visibility over them is the cosine-weighted solid angle (at most pi) under which they are
-    /// seen.
+    /// Flux is kept: the sum of area * mean_kernel * visibility over them is the cosine-weighted
+    /// solid angle (at most pi) under which they are seen.
     const std::vector<PatchView>& look(const glm::dvec3& position, const glm::dmat3& frame);
     /// The view all around a point in free space, through a cube: two hemicubes back to back. The
     /// distribution takes the place of the cosine at the point, so that with 1 the sum is the solid
@@ -58,6 +57,7 @@ private:
     };
 
     const std::vector<PatchView>& look_through(std::vector<Face> faces);
+    void keep_flux();
     void weigh_pixels(std::size_t face);
     double weight(std::size_t face, std::size_t pixel, const glm::dvec3& d) const;
     void draw_face(const Face& face);
@@ -77,6 +77,7 @@ private:
     const Distribution* distribution_ = nullptr;  ///< none: the cosine to the axis
     std::vector<std::vector<float>>
         weights_;  ///< of pixels, by face, where there is a distribution
+    std::vector<double> leaf_area_;
     std::vector<PatchSums> sums_;
     std::vector<PatchView> views_;
 };

@@ -84,7 +84,7 @@ void print_worst(const char* what, const std::vector<Row>& rows, Figure figure) 
 
 int run(const Arguments& a) {
     const Workers workers;
-    const Effort effort = a.full ? Effort{1024, 8} : Effort{};
+    const Effort effort = a.full ? Effort{1024, 4} : Effort{};
     std::vector<Row> rows;
     print_head();
     for (const Condition& c : all_conditions()) {
