@@ -106,6 +106,22 @@ Solution load_solution(const Path& path) {
     return load(Pieces(path), path);
 }
 
+Solution load_solution_to_go_on(const Path& path) {
+    const Pieces pieces(path);
+    if (pieces.has(band_piece_name(0)))
+        throw InputError(path.string(),
+                         "a solution in bands of wavelengths, which can't be gone on from; "
+                         "accepted: one in RGB (bake without --spectral)");
+    if (!pieces.has("sums"))
+        throw InputError(path.string(),
+                         "holds no sums to go on from: they were not kept, or the bake was "
+                         "interrupted before its first direction; accepted: a solution baked with "
+                         "--keep-sums on");
+    Solution solution = load(pieces, path);
+    read_sums_piece(*pieces.read("sums"), pieces.file("sums"), solution);
+    return solution;
+}
+
 SpectralSolution load_spectral_solution(const Path& path) {
     const Pieces pieces(path);
     SpectralSolution spectral{load(pieces, path), 0, {}};

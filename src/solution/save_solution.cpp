@@ -43,6 +43,7 @@ NamedBytes format_pieces(const Solution& solution, const Radiances& shown, const
     const PolyData surface = surface_piece(solution);
     add_summary(solution, *surface->GetFieldData());
     add("surface", surface);
+    if (solution.continuation) add("sums", sums_piece(solution));
     const std::vector<std::uint32_t> textures = used_textures(solution.surface);
     for (std::size_t i = 0; i < textures.size(); ++i) {
         const std::string name = texture_piece_name(i);

@@ -189,8 +189,10 @@ private:
         }
         transfer_.carry(representation_, all ? Carried::everything : Carried::residual, component_,
                         done_);
-        if (carried_before_.directions > 0)
+        if (carried_before_.directions > 0) {
             transfer_.set_shuffled({carried_before_.shuffled_from, carried_before_.shuffled_until});
+            carried_anew_at_ = done_;
+        }
         if (all) component_.leave_reflection_to_residual();
     }
 
@@ -324,6 +326,7 @@ private:
     void add_residual_to(TransportResult& result) const {
         result.monte_carlo = representation_;
         result.carried = carried();
+        result.carried_anew_at = carried_anew_at_;
         result.carried_to_the_end = transfer_.residual() != nullptr;
         result.residual_effect = residual_effect_;
         // Along the first direction nothing is carried yet.
@@ -354,7 +357,7 @@ private:
     std::uint64_t effect_begin_ = 0;
     double residual_effect_ = std::numeric_limits<double>::quiet_NaN();
     CarriedBefore carried_before_;
-    std::uint64_t done_ = 0, restarted_at_ = 0;
+    std::uint64_t done_ = 0, restarted_at_ = 0, carried_anew_at_ = 0;
     double relative_error_ = std::numeric_limits<double>::quiet_NaN();
     bool interrupted_ = false;
     std::vector<GlossySum> glossy_sums_;  ///< at the last block's beginning, where they are kept

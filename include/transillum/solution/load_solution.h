@@ -1,4 +1,4 @@
-/// Reads what save_solution wrote.
+/// Reads what save_solution wrote; what a bake needs to go on, only where that is asked for.
 #pragma once
 
 #include <transillum/solution/save_solution.h>
@@ -17,6 +17,10 @@ namespace transillum {
 /// With its groups of bands; without any where it was baked in RGB. \throws as load_solution, also
 /// where groups are missing or are not of this solution.
 [[nodiscard]] SpectralSolution load_spectral_solution(const std::filesystem::path& path);
+
+/// With what another bake needs to go on from it. \throws as load_solution, also where the file has
+/// none: it was not kept, or it is a solution in bands.
+[[nodiscard]] Solution load_solution_to_go_on(const std::filesystem::path& path);
 
 /// The record that lies beside a solution; empty where there is none.
 [[nodiscard]] RunRecord load_run_record(const std::filesystem::path& path);

@@ -10,6 +10,7 @@
 /// - NAME/surface.vtp: the root triangles
 /// - NAME/texture-N.vti: the textures that materials name
 /// - NAME/bands-NN.vtp: of a solution in bands of wavelengths, a group of three (absent without)
+/// - NAME/sums.vtp: what a bake needs to go on (absent unless the solution holds it)
 /// - NAME/run.json: timings, threads, command line: all that may differ between two equal solutions
 #pragma once
 

@@ -67,6 +67,12 @@ void read_radiance_piece(vtkPolyData& piece, const Path& file, Solution& solutio
 /// Light samples, `surface` and `patches` must be there.
 void read_incoming_piece(vtkPolyData& piece, const Path& file, Solution& solution);
 
+/// What another bake needs to go on, beside the blocks: as field data, PlainSums by name.
+/// \pre the solution has a continuation
+[[nodiscard]] PolyData sums_piece(const Solution& solution);
+/// Fills `continuation`; all else must be there.
+void read_sums_piece(vtkPolyData& piece, const Path& file, Solution& solution);
+
 /// A group of bands, beside the blocks: as field data its wavelengths, and a BandGroup's members.
 [[nodiscard]] std::string band_piece_name(int group);
 [[nodiscard]] PolyData band_piece(const SpectralSolution& spectral, const Bands& bands, int group);
