@@ -22,7 +22,9 @@ struct ResumeOptions {
 
 /// Takes more directions into a solution. The result, settings and all, is to the last bit that of
 /// one bake of as many directions; but where the Monte-Carlo component was being carried: it is
-/// begun anew, as a decision then says. A bake that ended within a block of directions goes on from
+/// begun anew, as a decision then says. (Of
+/// sides that were still dark, files hold no geometry factors: resumed ones neither; no light was
+/// reflected with them.) A bake that ended within a block of directions goes on from
 /// where the block began, and takes those once more: a fifth of all at most.
 /// \param run adds to its times, where given. \pre the scene's first shot is whole, as
 /// `continuation` says. \throws UsageError where the solution has none, has as many directions as
