@@ -80,6 +80,7 @@ std::string hexadecimal(std::uint32_t number) {
 const char* element_beside_blocks(std::string_view piece) {
     if (is_image(piece)) return "Image";
     if (is_band_group(piece)) return "Bands";
+    if (is_emitter(piece)) return "Emitter";
     return is_sums(piece) ? "Sums" : "";
 }
 
@@ -105,6 +106,10 @@ bool is_image(std::string_view piece) {
 
 bool is_band_group(std::string_view piece) {
     return piece.starts_with("bands-");
+}
+
+bool is_emitter(std::string_view piece) {
+    return piece.starts_with("emitter-");
 }
 
 bool is_sums(std::string_view piece) {
@@ -160,7 +165,8 @@ IndexFile parse_index(const std::string& text, const std::filesystem::path& path
     for (std::string line; std::getline(lines, line);) {
         if (line.find("<DataSet ") == std::string::npos &&
             line.find("<Image ") == std::string::npos &&
-            line.find("<Bands ") == std::string::npos && line.find("<Sums ") == std::string::npos)
+            line.find("<Bands ") == std::string::npos && line.find("<Sums ") == std::string::npos &&
+            line.find("<Emitter ") == std::string::npos)
             continue;
         const std::string file = attribute(line, "file").value_or("");
         index.folder = file.substr(0, file.find('/'));
