@@ -1,3 +1,4 @@
+#include "cli/bake_output.h"
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/repair_options.h"
@@ -12,7 +13,6 @@
 
 #include <fmt/format.h>
 
-#include <unistd.h>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -44,6 +44,10 @@ void add_options(CLI::App& command, BakeArguments& a) {
     command
         .add_flag("--again", a.again,
                   "bake even where OUTPUT is the solution of this scene and these options already")
+        ->group("Output");
+    a.bake.iteration.keep_sums = true;
+    add_choice(command, "--keep-sums", a.bake.iteration.keep_sums, {{"on", true}, {"off", false}},
+               "what resume needs to go on, in NAME/sums.vtp (not of --spectral)")
         ->group("Output");
 
     auto& iteration = a.bake.iteration;
@@ -183,14 +187,6 @@ void add_options(CLI::App& command, BakeArguments& a) {
         ->group(method);
 }
 
-void print_summary(const Solution& s, const std::string& path) {
-    fmt::print(
-        "{}: {} triangles, {} patches, {} light samples, {} iterations, estimated error {:.2f} "
-        "%{}\n",
-        path, s.surface.triangles.size(), s.patches.patch_count(), s.direct.samples.size(),
-        s.iterations, 100.0 * s.relative_error, s.interrupted ? ", interrupted" : "");
-}
-
 /// Saves phases as they come, and the list that ParaView plays.
 class PhaseKeeper {
 public:
@@ -215,12 +211,6 @@ private:
     std::filesystem::path folder_;
     std::string list_, entries_;
 };
-
-std::uint64_t allowed_memory(double gibibytes) {
-    if (gibibytes > 0.0) return static_cast<std::uint64_t>(gibibytes * 0x1p30);
-    return static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) *
-           static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)) / 10 * 9;
-}
 
 int run(BakeArguments& a, const Common& common) {
     Console console(common.quiet);

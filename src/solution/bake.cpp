@@ -226,7 +226,13 @@ Solution bake(const Scene& scene, const BakeOptions& options, const Workers& wor
         layout.decisions.push_back(
             {fmt::format("{} directions, not {}", least, options.iteration.iterations),
              "the phases took half as many"});
-    baker.run(s, layout.refined, std::max(options.iteration.iterations, least));
+    baker.prepare(s, layout.refined.bin_levels);
+    const bool shot_is_whole = !s.interrupted;
+    const auto sums =
+        baker.transport(s, std::max(options.iteration.iterations, least), layout.refined.sums,
+                        options.iteration.keep_sums && shot_is_whole);
+    if (sums)
+        s.continuation = std::make_shared<Continuation>(Continuation{sums, measure_first_shot(s)});
     s.decisions.insert(s.decisions.begin(), layout.decisions.begin(), layout.decisions.end());
     s.input_hash = hash_input(scene, options);
     warn_of_sharp_lobes(s, monitor);

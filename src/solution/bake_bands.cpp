@@ -115,6 +115,7 @@ SpectralSolution bake_bands(const Scene& scene, const SpectralOptions& spectral,
     const Colours rgb = measured_colours(of_scene, spectral, bands, monitor);
     BakeOptions of_group = options;
     of_group.iteration.seconds /= bands.groups();
+    of_group.iteration.keep_sums = false;  // nothing goes on from a group's
 
     Baker baker(of_group, workers, monitor, watch);
     sound.scene.materials = rgb.materials;

@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -19,6 +20,11 @@ namespace {
 
 double mebibytes(std::uint64_t bytes) {
     return static_cast<double>(bytes) * 0x1p-20;
+}
+
+std::uint64_t table_bytes(const DirectLight& direct) {
+    return (direct.geometry_factor.size() + direct.visibility.size()) * sizeof(float) +
+           direct.vectors.size() * sizeof(glm::vec3);
 }
 
 void decide_first_shot(const Luminaires& luminaires, FirstShot choice, std::uint32_t patches,
@@ -64,8 +70,17 @@ void decide_bins(const Solution& s, const BakeOptions& options, std::vector<Deci
                                          : "by the width and weight of their lobes"});
 }
 
+/// A bake that goes on comes to most decisions again.
+void decide_once(const Decision& decision, std::vector<Decision>& decisions) {
+    if (std::ranges::find(decisions, decision.what, &Decision::what) == decisions.end())
+        decisions.push_back(decision);
+}
+
 void decide_monte_carlo(const TransportResult& t, MonteCarlo choice, Averaging averaging,
                         std::vector<Decision>& decisions) {
+    std::erase_if(decisions, [](const Decision& d) {
+        return d.what.find("Monte-Carlo component") != std::string::npos;
+    });
     if (t.carried == 0) {
         decisions.push_back({"no Monte-Carlo component in the transport",
                              choice == MonteCarlo::off ? "asked for" : "too few directions"});
@@ -76,18 +91,21 @@ void decide_monte_carlo(const TransportResult& t, MonteCarlo choice, Averaging a
                                 : "in the transillumination buffer";
     const std::string what = fmt::format("Monte-Carlo component carried {} for {} of {} directions",
                                          how, t.carried, t.iterations);
+    std::string why;
     if (averaging == Averaging::none)
-        decisions.push_back({what, "plain iteration: no finite elements are fed back"});
+        why = "plain iteration: no finite elements are fed back";
     else if (choice != MonteCarlo::automatic)
-        decisions.push_back({what, "asked for"});
+        why = "asked for";
     else if (std::isnan(t.residual_effect))
-        decisions.push_back({what, "too few directions to tell what it is worth"});
+        why = "too few directions to tell what it is worth";
     else
-        decisions.push_back(
-            {what, fmt::format("it changes {:.2g} % of what patches receive, {}",
-                               100.0 * t.residual_effect,
-                               t.carried_to_the_end ? "above the error to be expected"
-                                                    : "below the error to be expected")});
+        why =
+            fmt::format("it changes {:.2g} % of what patches receive, {} the error to be expected",
+                        100.0 * t.residual_effect, t.carried_to_the_end ? "above" : "below");
+    if (t.carried_anew_at > 0)
+        why += fmt::format("; begun anew at {} directions, as what is carried is not stored",
+                           t.carried_anew_at);
+    decisions.push_back({what, why});
 }
 
 }  // namespace
@@ -116,8 +134,19 @@ std::shared_ptr<const IterationSums> Baker::transport(Solution& s, std::uint64_t
 }
 
 double Baker::pixel_size(const Solution& s) const {
+    if (goes_on_from) return options_.iteration.pixel_size;
     return options_.resolution > 0 ? pixel_size_for(s.surface, options_.resolution)
                                    : automatic_pixel_size(s.surface, s.patches);
+}
+
+void Baker::require_room(const Solution& s, const Luminaires& luminaires) const {
+    MemoryEstimate needed = estimate_memory(s, luminaires, workers_.count(), band_groups);
+    needed.monte_carlo =
+        monte_carlo_bytes(carried_by(options_.iteration.monte_carlo, options_.iteration.averaging),
+                          s.surface, s.patches, pixel_size(s), workers_.count());
+    if (goes_on_from) needed.first_shot = table_bytes(s.direct);
+    if (options_.iteration.keep_sums) needed.kept_sums = kept_sums_bytes(s);
+    require_memory(needed, options_.memory);
 }
 
 void Baker::shoot(Solution& s) const {
@@ -125,11 +154,7 @@ void Baker::shoot(Solution& s) const {
     light.seed = options_.seed;
     const Luminaires luminaires = sample_luminaires(s.surface, light, s.lighting.lights);
     decide_first_shot(luminaires, light.first_shot, s.patches.patch_count(), s.decisions);
-    MemoryEstimate needed = estimate_memory(s, luminaires, workers_.count(), band_groups);
-    needed.monte_carlo =
-        monte_carlo_bytes(carried_by(options_.iteration.monte_carlo, options_.iteration.averaging),
-                          s.surface, s.patches, pixel_size(s), workers_.count());
-    require_memory(needed, options_.memory);
+    require_room(s, luminaires);
     s.direct = shoot_direct_light(s.surface, s.patches, luminaires, options_.hemicube_resolution,
                                   workers_, monitor_);
     s.direct_irradiance = direct_irradiance(s.direct, s.patches.patch_count());
@@ -148,16 +173,19 @@ std::shared_ptr<const IterationSums> Baker::iterate_on(Solution& s, std::uint64_
     const PatchSources sources = make_sources(s);
     if (!shines(sources)) {
         iteration.iterations = 0;
-        s.decisions.push_back({"no iteration", "no surface reflects the direct light"});
+        decide_once({"no iteration", "no surface reflects the direct light"}, s.decisions);
     }
     if (!s.lighting.environment.shines())
-        s.decisions.push_back({"no environment", "the scene has none"});
+        decide_once({"no environment", "the scene has none"}, s.decisions);
     TransportResult transport =
         iterate(s.surface, s.patches, sources, iteration, workers_, monitor_);
     decide_monte_carlo(transport, iteration.monte_carlo, iteration.averaging, s.decisions);
     s.indirect_irradiance = std::move(transport.irradiance);
-    s.spatial_error = std::move(transport.spatial_error);
-    s.directional_error = std::move(transport.directional_error);
+    // One that had given up carrying what tells of them keeps what it had.
+    if (!goes_on_from || !transport.spatial_error.empty()) {
+        s.spatial_error = std::move(transport.spatial_error);
+        s.directional_error = std::move(transport.directional_error);
+    }
     s.coverage = std::move(transport.coverage);
     s.standard_error = std::move(transport.standard_error);
     s.glossy_elements = std::move(transport.glossy_elements);
@@ -166,7 +194,8 @@ std::shared_ptr<const IterationSums> Baker::iterate_on(Solution& s, std::uint64_
     s.iterations = transport.iterations;
     s.relative_error = transport.relative_error;
     s.interrupted = s.interrupted || transport.interrupted;
-    s.balance = measure_balance(s, transport);
+    s.balance = measure_balance(s, goes_on_from ? goes_on_from->first_shot : measure_first_shot(s),
+                                transport);
     return transport.sums;
 }
 

@@ -36,7 +36,13 @@ public:
         Solution& solution, std::uint64_t iterations,
         std::shared_ptr<const IterationSums> start = nullptr, bool keep_sums = false) const;
 
+    /// Says that what the iteration is going to need is there. \param luminaires that are to be
+    /// shot
+    void require_room(const Solution& solution, const Luminaires& luminaires) const;
+
     std::uint64_t band_groups = 0;  ///< whose results are to be kept, for the estimate of memory
+    /// Of an earlier bake of the same solution; null otherwise.
+    const Continuation* goes_on_from = nullptr;
 
 private:
     [[nodiscard]] double pixel_size(const Solution& solution) const;

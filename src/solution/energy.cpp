@@ -35,28 +35,38 @@ Spectrum reflected_share(const Solution& s, std::uint32_t patch) {
     return mean_albedo(brdf);
 }
 
-EnergyBalance measure_balance(const Solution& s, const TransportResult& transport) {
+EnergyBalance measure_first_shot(const Solution& s) {
     EnergyBalance balance;
-    balance.escaped = transport.escaped;
-    balance.entered = transport.entered;
     SpectrumSum shot(0.0), arrived(0.0);
     for (const LightSample& l : s.direct.samples)
         shot += SpectrumSum(l.emitted) * (std::numbers::pi * l.area);
-    const SpectrumSum by_lights = arrived_from_lights(s);
-    balance.entered += by_lights;
+    balance.entered = arrived_from_lights(s);
     for (std::uint32_t p = 0; p < s.patches.patch_count(); ++p) {
         const double area = area_of_leaf(s.surface, s.patches, s.patches.leaf_of_patch(p));
         const SpectrumSum direct = area * SpectrumSum(s.direct_irradiance[p]);
-        const SpectrumSum flux = direct + area * SpectrumSum(s.indirect_irradiance[p]);
         arrived += direct;
+        if (!s.reflects(p)) balance.black_backs += direct;
+    }
+    balance.escaped = glm::max(shot - (arrived - balance.entered), SpectrumSum(0.0));
+    return balance;
+}
+
+EnergyBalance measure_balance(const Solution& s, const EnergyBalance& first_shot,
+                              const TransportResult& transport) {
+    EnergyBalance balance = first_shot;
+    balance.escaped += transport.escaped;
+    balance.entered += transport.entered;
+    for (std::uint32_t p = 0; p < s.patches.patch_count(); ++p) {
+        const double area = area_of_leaf(s.surface, s.patches, s.patches.leaf_of_patch(p));
+        const SpectrumSum indirect = area * SpectrumSum(s.indirect_irradiance[p]);
+        const SpectrumSum flux = area * SpectrumSum(s.direct_irradiance[p]) + indirect;
         balance.emitted += area * std::numbers::pi * SpectrumSum(s.emission(p));
         const SpectrumSum reflected(s.direct_radiance(p) + s.finite_element_radiance(p));
         if (s.reflects(p))
             balance.absorbed += flux - area * std::numbers::pi * reflected;
         else
-            balance.black_backs += flux;
+            balance.black_backs += indirect;
     }
-    balance.escaped += glm::max(shot - (arrived - by_lights), SpectrumSum(0.0));
     return balance;
 }
 

@@ -76,6 +76,14 @@ std::string hexadecimal(std::uint32_t number) {
     return digits;
 }
 
+/// Empty for a block.
+const char* element_beside_blocks(std::string_view piece) {
+    if (is_image(piece)) return "Image";
+    if (is_band_group(piece)) return "Bands";
+    if (is_emitter(piece)) return "Emitter";
+    return is_sums(piece) ? "Sums" : "";
+}
+
 void check_format(const std::string& text, const std::filesystem::path& path) {
     const auto format = attribute(text, format_attribute);
     if (!format) {
@@ -98,6 +106,14 @@ bool is_image(std::string_view piece) {
 
 bool is_band_group(std::string_view piece) {
     return piece.starts_with("bands-");
+}
+
+bool is_emitter(std::string_view piece) {
+    return piece.starts_with("emitter-");
+}
+
+bool is_sums(std::string_view piece) {
+    return piece == "sums";
 }
 
 std::string file_of_piece(std::string_view piece) {
@@ -127,14 +143,15 @@ std::string format_index(const IndexFile& index) {
          << "\">\n";
     std::size_t block = 0;
     for (const IndexedPiece& piece : index.pieces) {
-        if (is_image(piece.name) || is_band_group(piece.name)) continue;
+        if (*element_beside_blocks(piece.name) != 0) continue;
         text << "    <DataSet index=\"" << block++ << "\" ";
         attributes_of(piece);
     }
     text << "  </vtkMultiBlockDataSet>\n";
     for (const IndexedPiece& piece : index.pieces) {
-        if (!is_image(piece.name) && !is_band_group(piece.name)) continue;
-        text << (is_image(piece.name) ? "  <Image " : "  <Bands ");
+        const char* const element = element_beside_blocks(piece.name);
+        if (*element == 0) continue;
+        text << "  <" << element << ' ';
         attributes_of(piece);
     }
     text << "</VTKFile>\n";
@@ -147,7 +164,9 @@ IndexFile parse_index(const std::string& text, const std::filesystem::path& path
     std::istringstream lines(text);
     for (std::string line; std::getline(lines, line);) {
         if (line.find("<DataSet ") == std::string::npos &&
-            line.find("<Image ") == std::string::npos && line.find("<Bands ") == std::string::npos)
+            line.find("<Image ") == std::string::npos &&
+            line.find("<Bands ") == std::string::npos && line.find("<Sums ") == std::string::npos &&
+            line.find("<Emitter ") == std::string::npos)
             continue;
         const std::string file = attribute(line, "file").value_or("");
         index.folder = file.substr(0, file.find('/'));

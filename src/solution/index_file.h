@@ -1,6 +1,6 @@
 /// NAME.vtm: the blocks of a solution, as VTK's multi-block reader wants them, with the size and
-/// checksum of every file so that damage is found before anything is believed. Images and groups of
-/// bands stand beside the blocks, where viewers do not put them into the scene.
+/// checksum of every file so that damage is found before anything is believed. Images, groups of
+/// bands, emitters and sums stand beside the blocks, where viewers do not put them into the scene.
 #pragma once
 
 #include <cstdint>
@@ -24,6 +24,8 @@ struct IndexFile {
 
 [[nodiscard]] bool is_image(std::string_view piece);
 [[nodiscard]] bool is_band_group(std::string_view piece);
+[[nodiscard]] bool is_emitter(std::string_view piece);
+[[nodiscard]] bool is_sums(std::string_view piece);
 /// The name with its extension: .vti for images, .vtp for all else.
 [[nodiscard]] std::string file_of_piece(std::string_view piece);
 

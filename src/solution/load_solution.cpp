@@ -119,6 +119,38 @@ std::optional<Solution> find_baked(const Path& path, const std::string& input_ha
     }
 }
 
+Solution load_solution_to_go_on(const Path& path) {
+    const Pieces pieces(path);
+    if (pieces.has(band_piece_name(0)))
+        throw InputError(path.string(),
+                         "a solution in bands of wavelengths, which can't be gone on from; "
+                         "accepted: one in RGB (bake without --spectral)");
+    if (!pieces.has("sums"))
+        throw InputError(path.string(),
+                         "holds no sums to go on from: they were not kept, or the bake was "
+                         "interrupted before its first direction; accepted: a solution baked with "
+                         "--keep-sums on");
+    Solution solution = load(pieces, path);
+    read_sums_piece(*pieces.read("sums"), pieces.file("sums"), solution);
+    return solution;
+}
+
+EmitterSolution load_emitter_solution(const Path& path) {
+    const Pieces pieces(path);
+    const std::string first = emitter_piece_name(0);
+    if (!pieces.has(first))
+        throw InputError(path.string(),
+                         "does not tell its emitters apart; accepted: a solution baked with "
+                         "--keep-emitters");
+    EmitterSolution solution{load(pieces, path), {}};
+    const std::size_t count = read_emitter_count(*pieces.read(first), pieces.file(first));
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::string name = emitter_piece_name(i);
+        read_emitter_piece(*pieces.read(name), pieces.file(name), solution);
+    }
+    return solution;
+}
+
 SpectralSolution load_spectral_solution(const Path& path) {
     const Pieces pieces(path);
     SpectralSolution spectral{load(pieces, path), 0, {}};

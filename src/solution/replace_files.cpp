@@ -16,12 +16,14 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::array<std::string_view, 6> known_files{
-    "radiance.vtp", "incoming.vtp", "lights.vtp", "environment.vtp", "surface.vtp", "run.json"};
+constexpr std::array<std::string_view, 7> known_files{
+    "radiance.vtp", "incoming.vtp", "lights.vtp", "environment.vtp",
+    "surface.vtp",  "sums.vtp",     "run.json"};
 
 bool is_known(std::string_view name) {
     return std::find(known_files.begin(), known_files.end(), name) != known_files.end() ||
            (name.starts_with("texture-") && name.ends_with(".vti")) ||
+           (name.starts_with("emitter-") && name.ends_with(".vtp")) ||
            (name.starts_with("bands-") && name.ends_with(".vtp"));
 }
 

@@ -43,6 +43,7 @@ NamedBytes format_pieces(const Solution& solution, const Radiances& shown, const
     const PolyData surface = surface_piece(solution);
     add_summary(solution, *surface->GetFieldData());
     add("surface", surface);
+    if (solution.continuation) add("sums", sums_piece(solution));
     const std::vector<std::uint32_t> textures = used_textures(solution.surface);
     for (std::size_t i = 0; i < textures.size(); ++i) {
         const std::string name = texture_piece_name(i);
@@ -85,6 +86,20 @@ void save_solution(const Solution& solution, const RunRecord& run, const Path& p
     check_sound(solution, path);
     save_pieces(format_pieces(solution, radiances_of(solution), Path(path).replace_extension()),
                 run, path);
+}
+
+void save_emitter_solution(const EmitterSolution& solution, const RunRecord& run,
+                           const Path& path) {
+    check_name(path);
+    check_sound(solution.all, path);
+    const Path folder = Path(path).replace_extension();
+    NamedBytes pieces = format_pieces(solution.all, radiances_of(solution.all), folder);
+    for (std::size_t i = 0; i < solution.parts.size(); ++i) {
+        const std::string name = emitter_piece_name(i);
+        pieces.emplace_back(name,
+                            to_vtp(*emitter_piece(solution, i), folder / file_of_piece(name)));
+    }
+    save_pieces(std::move(pieces), run, path);
 }
 
 void save_spectral_solution(const SpectralSolution& spectral, const RunRecord& run,

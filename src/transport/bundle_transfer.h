@@ -30,6 +30,9 @@ public:
     void carry(MonteCarlo representation, Carried carried, const FiniteElementComponent& elements,
                std::uint64_t next);
     void carry_no_more(std::uint64_t next);
+    /// Which directions come in another order. Setting it comes after carry().
+    [[nodiscard]] DirectionOrder::Range shuffled() const { return order_.shuffled(); }
+    void set_shuffled(const DirectionOrder::Range& range) { order_.set_shuffled(range); }
     /// From now on what elements send along a bundle is kept for residual() to tell; nobody
     /// receives anything.
     void record(MonteCarlo representation);

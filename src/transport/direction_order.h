@@ -18,6 +18,15 @@ public:
     void shuffle(std::uint64_t next);
     /// As soon as the block that number `next` is in is through.
     void unshuffle(std::uint64_t next);
+    /// Those that are shuffled: what another of the same seed needs to be in the same order.
+    struct Range {
+        std::uint64_t from = 0, until = 0;
+    };
+    [[nodiscard]] Range shuffled() const { return {from_, until_}; }
+    void set_shuffled(const Range& range) {
+        from_ = range.from;
+        until_ = range.until;
+    }
     /// Number in the sequence of the direction that is taken as number i.
     [[nodiscard]] std::uint64_t at(std::uint64_t i);
 

@@ -72,13 +72,15 @@ void FiniteElementComponent::restore(std::span<const Spectrum> irradiance,
     glossy_.restore(glossy_values);
 }
 
-void FiniteElementComponent::set_sums(FiniteElementSums sums) {
+void FiniteElementComponent::set_sums(FiniteElementSums sums, FiniteElementSums earlier) {
     sums_ = std::move(sums.patches);
-    glossy_.set_sums(std::move(sums.glossy));
+    glossy_.set_sums(std::move(sums.glossy), std::move(earlier.glossy));
     escaped_ = sums.escaped;
     entered_ = sums.entered;
     weights_ = sums.weights;
     blocks_ = sums.blocks;
+    earlier_ = std::move(earlier.patches);
+    earlier_blocks_ = earlier.blocks;
 }
 
 void FiniteElementComponent::restart() {

@@ -73,8 +73,14 @@ public:
     [[nodiscard]] FiniteElementSums sums() const {
         return {sums_, glossy_.sums(), escaped_, entered_, weights_, blocks_};
     }
+    /// What the last restart set aside; empty where that was recalled or let go of.
+    [[nodiscard]] FiniteElementSums earlier_sums() const {
+        return {earlier_, glossy_.earlier_sums(), {}, {}, 0.0, earlier_blocks_};
+    }
+    /// The glossy sides' share of sums(): the only one that changes within a block.
+    [[nodiscard]] const std::vector<GlossySum>& glossy_sums() const { return glossy_.sums(); }
     /// Goes on from these.
-    void set_sums(FiniteElementSums sums);
+    void set_sums(FiniteElementSums sums, FiniteElementSums earlier);
 
     /// Takes a block of directions. \param weight of each of its directions in the average.
     /// \param effect told what every patch received, where given

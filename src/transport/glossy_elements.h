@@ -63,7 +63,11 @@ public:
     // As FiniteElementComponent's.
     void restore(std::span<const Spectrum> values);
     [[nodiscard]] const std::vector<GlossySum>& sums() const { return sums_; }
-    void set_sums(std::vector<GlossySum> sums) { sums_ = std::move(sums); }
+    [[nodiscard]] const std::vector<GlossySum>& earlier_sums() const { return earlier_; }
+    void set_sums(std::vector<GlossySum> sums, std::vector<GlossySum> earlier) {
+        sums_ = std::move(sums);
+        earlier_ = std::move(earlier);
+    }
     void restart(float prior_weight);
     void recall();
     void forget();

@@ -99,12 +99,15 @@ public:
             brightest_so_far_ = std::max(brightest_so_far_, brightest);
             component_.send(exchange_, brightest, most_fragments(block), transfer_.headroom());
             std::uint64_t in_block = 0;
+            if (options_.keep_sums && block > 1) glossy_sums_ = component_.glossy_sums();
             do {
                 transfer(transfer_.bundle(done_ + in_block), weight_after(block));
                 ++in_block;
                 monitor_.progress(
                     {"transport", done_ + in_block, options_.iterations, relative_error_});
             } while (in_block < block && done_ + in_block < options_.iterations && !stopped());
+            // One that goes on begins the block that was cut short once more.
+            if (in_block < block) keep_sums(std::move(glossy_sums_), in_block);
             end_block(in_block);
         }
         return finish();
@@ -157,23 +160,40 @@ private:
     }
 
     void go_on_from(const IterationSums& sums, const GlossySides& glossy) {
-        component_.set_sums(inherited(sums, patches_, glossy, options_.pixel_size));
+        component_.set_sums(inherited(sums, sums.elements, patches_, glossy, options_.pixel_size),
+                            inherited(sums, sums.earlier, patches_, glossy, options_.pixel_size));
         const double scale = std::pow(sums.pixel_size / options_.pixel_size, 2.0);
-        if (sums.between_clusters.count == between_clusters_.count)
-            between_clusters_ = sums.between_clusters;
-        for (Received& r : between_clusters_.entries) {
+        take_over(sums.between_clusters, scale, between_clusters_);
+        take_over(sums.earlier_between_clusters, scale, earlier_between_clusters_);
+        done_ = sums.directions;
+        restarted_at_ = sums.restarted_at;
+        error_.set_history(sums.error);
+        brightest_so_far_ = sums.brightest_environment;
+        if (!is_of(sums, patches_, glossy, options_.pixel_size)) {
+            error_.begin_anew(component_);
+            return;
+        }
+        relative_error_ = sums.relative_error;
+        restarts_ = sums.restarts;
+        carried_before_ = sums.carried;
+        if (!carried_before_.given_up) return;
+        representation_ = carried_before_.representation;
+        residual_effect_ = carried_before_.effect;
+        transfer_.set_shuffled({carried_before_.shuffled_from, carried_before_.shuffled_until});
+    }
+
+    static void take_over(const ClusterTransfer& from, double scale, ClusterTransfer& to) {
+        if (from.count == to.count) to = from;
+        for (Received& r : to.entries) {
             r.radiance *= scale;
             r.coverage *= scale;
         }
-        done_ = sums.directions;
-        error_.set_history(sums.error);
-        if (sums.patches != patches_ || sums.elements.glossy.size() != glossy.element_count)
-            error_.begin_anew(component_);
     }
 
     void begin_block() {
         if (representation_ == MonteCarlo::off && carries_from() <= done_) begin_carrying();
-        if (!balances_at(done_) || (done_ > last_restart && !restarts_)) return;
+        if (!balances_at(done_) || restarted_at_ == done_ || (done_ > last_restart && !restarts_))
+            return;
         if (restarts_) error_.begin_anew(component_);
         restarts_ = false;
         restarted_at_ = done_;
@@ -202,6 +222,10 @@ private:
         }
         transfer_.carry(representation_, all ? Carried::everything : Carried::residual, component_,
                         done_);
+        if (carried_before_.directions > 0) {
+            transfer_.set_shuffled({carried_before_.shuffled_from, carried_before_.shuffled_until});
+            carried_anew_at_ = done_;
+        }
         if (all) component_.leave_reflection_to_residual();
     }
 
@@ -281,7 +305,39 @@ private:
                 margin_of_target * relative_error_ <= options_.target_error);
     }
 
+    /// As they were before this block, of which so many directions are done.
+    void keep_sums(std::vector<GlossySum> glossy_sums, std::uint64_t in_block) {
+        if (!options_.keep_sums) return;
+        FiniteElementSums elements = component_.sums();
+        if (!sides_.empty()) elements.glossy = std::move(glossy_sums);
+        const auto [from, until] = transfer_.shuffled();
+        const bool given_up = representation_ != MonteCarlo::off && !transfer_.residual();
+        kept_ = std::make_shared<IterationSums>(
+            IterationSums{patches_,
+                          sides_,
+                          transfer_.pixel_size(),
+                          options_.averaging,
+                          options_.monte_carlo,
+                          done_,
+                          restarted_at_,
+                          std::move(elements),
+                          component_.earlier_sums(),
+                          between_clusters_,
+                          earlier_between_clusters_,
+                          {representation_, carried() - (transfer_.residual() ? in_block : 0), from,
+                           until, given_up, residual_effect_},
+                          error_.history(),
+                          relative_error_,
+                          restarts_,
+                          brightest_so_far_});
+    }
+
+    [[nodiscard]] std::uint64_t carried() const {
+        return carried_before_.directions + transfer_.carried();
+    }
+
     TransportResult finish() {
+        if (!kept_) keep_sums(component_.glossy_sums(), 0);
         // Within the phase after a restart there is too little to do without what came before; and
         // between powers of two the last directions are not in balance yet. But transfers from
         // before the first balance were of light that had only begun to spread.
@@ -315,21 +371,19 @@ private:
         result.entered = component_.entered() * (2.0 * std::numbers::pi * pixel_area);
         result.glossy_elements = component_.glossy_values();
         add_residual_to(result);
-        if (options_.keep_sums)
-            result.sums = std::make_shared<IterationSums>(
-                IterationSums{patches_, sides_, transfer_.pixel_size(), done_, component_.sums(),
-                              std::move(between_clusters_), error_.history()});
+        result.sums = std::move(kept_);
         return result;
     }
 
     void add_residual_to(TransportResult& result) const {
         result.monte_carlo = representation_;
-        result.carried = transfer_.carried();
+        result.carried = carried();
+        result.carried_anew_at = carried_anew_at_;
         result.carried_to_the_end = transfer_.residual() != nullptr;
         result.residual_effect = residual_effect_;
         // Along the first direction nothing is carried yet.
-        if (result.carried < 2) return;
-        const double directions = static_cast<double>(result.carried) - 1.0;
+        if (transfer_.carried() < 2) return;
+        const double directions = static_cast<double>(transfer_.carried()) - 1.0;
         for (std::uint32_t p = 0; p < component_.patch_count(); ++p) {
             const ResidualNorms norms = transfer_.norms(p);
             result.spatial_error.push_back(saturated(norms.spatial / directions));
@@ -355,12 +409,14 @@ private:
     std::optional<ResidualEffect> effect_;  ///< while it is being measured
     std::uint64_t effect_begin_ = 0;
     float brightest_so_far_ = 0.0f;  ///< of the environment
-    bool restarts_ = false;  ///< at the next power of two
-    std::uint64_t restarted_at_ = 0;
+    bool restarts_ = false;          ///< at the next power of two
     double residual_effect_ = std::numeric_limits<double>::quiet_NaN();
-    std::uint64_t done_ = 0;
+    CarriedBefore carried_before_;
+    std::uint64_t done_ = 0, restarted_at_ = 0, carried_anew_at_ = 0;
     double relative_error_ = std::numeric_limits<double>::quiet_NaN();
     bool interrupted_ = false;
+    std::vector<GlossySum> glossy_sums_;  ///< at the last block's beginning, where they are kept
+    std::shared_ptr<const IterationSums> kept_;
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 

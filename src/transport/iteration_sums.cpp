@@ -54,14 +54,26 @@ void for_common_bins(const GlossySide& earlier, const GlossySide& side, Body bod
 
 }  // namespace
 
-FiniteElementSums inherited(const IterationSums& sums, const PatchHierarchy& patches,
-                            const GlossySides& glossy, double pixel_size) {
+bool is_of(const IterationSums& sums, const PatchHierarchy& patches, const GlossySides& glossy,
+           double pixel_size) {
+    const auto alike = [](const GlossySide& a, const GlossySide& b) {
+        return a.root == b.root && a.back == b.back && a.bin_level == b.bin_level &&
+               a.first_element == b.first_element;
+    };
+    return sums.pixel_size == pixel_size && std::ranges::equal(sums.sides, glossy.sides, alike) &&
+           sums.patches == patches;
+}
+
+FiniteElementSums inherited(const IterationSums& sums, const FiniteElementSums& elements,
+                            const PatchHierarchy& patches, const GlossySides& glossy,
+                            double pixel_size) {
+    if (elements.patches.empty()) return {};
     const double scale = sums.pixel_size * sums.pixel_size / (pixel_size * pixel_size);
     const LeafShares shares = leaf_shares(sums.patches, patches);
     FiniteElementSums out;
     out.patches.resize(patches.patch_count());
     for (std::uint32_t p = 0; p < out.patches.size(); ++p)
-        out.patches[p] = united(shares.of(patches.leaf_of_patch(p)), sums.elements.patches,
+        out.patches[p] = united(shares.of(patches.leaf_of_patch(p)), elements.patches,
                                 patches.is_back(p) ? sums.patches.leaf_count : 0, scale);
     out.glossy.resize(glossy.element_count);
     std::size_t next = 0;
@@ -79,13 +91,13 @@ FiniteElementSums inherited(const IterationSums& sums, const PatchHierarchy& pat
                 for_common_bins(*earlier, side, [&](int from, int to, float share) {
                     out.glossy[side.element(to, p)] +=
                         share * part.share * static_cast<float>(scale) *
-                        sums.elements.glossy[earlier->element(from, earlier_offset + part.leaf)];
+                        elements.glossy[earlier->element(from, earlier_offset + part.leaf)];
                 });
     }
-    out.escaped = scale * sums.elements.escaped;
-    out.entered = scale * sums.elements.entered;
-    out.weights = sums.elements.weights;
-    out.blocks = sums.elements.blocks;
+    out.escaped = scale * elements.escaped;
+    out.entered = scale * elements.entered;
+    out.weights = elements.weights;
+    out.blocks = elements.blocks;
     return out;
 }
 

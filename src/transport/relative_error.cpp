@@ -99,13 +99,13 @@ void ErrorEstimate::add(std::uint64_t begin, std::uint64_t end, double weight) {
 }
 
 void ErrorEstimate::restart() {
-    earlier_ = std::move(now_.parts);
+    now_.earlier = std::move(now_.parts);
     now_.parts.clear();
 }
 
 void ErrorEstimate::recall() {
-    now_.parts.insert(now_.parts.begin(), earlier_.begin(), earlier_.end());
-    earlier_.clear();
+    now_.parts.insert(now_.parts.begin(), now_.earlier.begin(), now_.earlier.end());
+    now_.earlier.clear();
 }
 
 template <class Value>

@@ -46,6 +46,7 @@ struct ErrorHistory {
     std::vector<DirectionPart> last_parts;
     std::vector<AverageMove> moves;
     ErrorModel model;
+    std::vector<DirectionPart> earlier;  ///< set aside by the last restart
     bool jumps = false;  ///< the next or only move is larger than the error alone makes it
 };
 
@@ -59,7 +60,7 @@ public:
     void add(std::uint64_t begin, std::uint64_t end, double weight);
     void restart();
     void recall();
-    void forget() { earlier_.clear(); }
+    void forget() { now_.earlier.clear(); }
 
     /// Notes how far the average has moved since the last call. \pre at a power of two of
     /// directions
@@ -92,7 +93,6 @@ private:
     std::span<const double> leaf_area_;
     const Workers& workers_;
     ErrorHistory now_;
-    std::vector<DirectionPart> earlier_;  ///< set aside by the last restart
 };
 
 }  // namespace transillum

@@ -47,9 +47,9 @@ struct BakeOptions {
 /// Scene -> SurfaceMesh + PatchHierarchy -> DirectLight -> transport -> Solution.
 /// \param run filled with thread count and wall time by phase, where given.
 /// \pre the scene's albedos are limited (limit_albedo). When the monitor wants to stop, what is
-/// done so far is a valid solution. \throws InputError when the scene has no surface or no light;
-/// UsageError, also where
-/// the tables would need more memory than is allowed.
+/// done so far is a valid solution. Where the iteration keeps its sums, it can be gone on with
+/// (resume.h), unless it was stopped before that. \throws InputError when the scene has no surface
+/// or no light; UsageError, also where the tables would need more memory than is allowed.
 [[nodiscard]] Solution bake(const Scene& scene, const BakeOptions& options, const Workers& workers,
                             Monitor& monitor, RunRecord* run = nullptr);
 

@@ -10,9 +10,12 @@
 /// - NAME/surface.vtp: the root triangles
 /// - NAME/texture-N.vti: the textures that materials name
 /// - NAME/bands-NN.vtp: of a solution in bands of wavelengths, a group of three (absent without)
+/// - NAME/emitter-NN.vtp: what comes of the light of one emitter (absent unless kept)
+/// - NAME/sums.vtp: what a bake needs to go on (absent unless the solution holds it)
 /// - NAME/run.json: timings, threads, command line: all that may differ between two equal solutions
 #pragma once
 
+#include <transillum/solution/emitter_solution.h>
 #include <transillum/solution/solution.h>
 #include <transillum/solution/spectral_solution.h>
 
@@ -41,6 +44,10 @@ struct RunRecord {
 /// changed.
 void save_solution(const Solution& solution, const RunRecord& run,
                    const std::filesystem::path& path);
+
+/// The same, with the light of each emitter beside it.
+void save_emitter_solution(const EmitterSolution& solution, const RunRecord& run,
+                           const std::filesystem::path& path);
 
 /// The same, with the groups of bands beside it. What viewers show as radiance is that of the
 /// groups, converted to linear sRGB, with negative values where it lies outside.

@@ -9,6 +9,7 @@
 #include <transillum/transport/glossy_sides.h>
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,6 +30,14 @@ struct EnergyBalance {
     SpectrumSum escaped{0.0};   ///< out of the scene (estimate of the iteration and the first shot)
     SpectrumSum black_backs{
         0.0};  ///< met the back of a one-sided surface: a mesh wound inside out, or a leak
+};
+
+struct IterationSums;
+
+/// What a bake needs to go on, beside the solution that it has come to.
+struct Continuation {
+    std::shared_ptr<const IterationSums> sums;
+    EnergyBalance first_shot;  ///< of its light alone, with what sides received that aren't stored
 };
 
 struct Solution {
@@ -66,6 +75,7 @@ struct Solution {
     /// Of the scene as it was read, and of the options: baked again they give this solution. Empty
     /// where it is not to be found again, as of bands.
     std::string input_hash;
+    std::shared_ptr<const Continuation> continuation;  ///< null unless it was kept, and loaded
 
     [[nodiscard]] const Material& material_of(std::uint32_t patch) const {
         return surface.materials

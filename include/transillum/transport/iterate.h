@@ -119,6 +119,9 @@ struct TransportResult {
     MonteCarlo monte_carlo = MonteCarlo::off;
     std::uint64_t carried = 0;
     bool carried_to_the_end = false;
+    /// Number of directions at which it was begun once more, where that of an earlier run was not
+    /// at hand; 0 otherwise.
+    std::uint64_t carried_anew_at = 0;
     double residual_effect = std::numeric_limits<double>::quiet_NaN();
     /// Its norms (§3.2) [W^2 sr^-2 m^-4], one a patch, means over directions of the luminance: V_s,
     /// its variance within a patch, and V_d, the square of its mean; at most what a float holds.

@@ -2,6 +2,7 @@
 /// file's promise; ranges and indices are checked once more, together, by check_solution.
 #pragma once
 
+#include <transillum/solution/emitter_solution.h>
 #include <transillum/solution/solution.h>
 #include <transillum/solution/spectral_solution.h>
 
@@ -66,6 +67,19 @@ void read_radiance_piece(vtkPolyData& piece, const Path& file, Solution& solutio
 [[nodiscard]] PolyData incoming_piece(const Solution& solution, const Patches& stored);
 /// Light samples, `surface` and `patches` must be there.
 void read_incoming_piece(vtkPolyData& piece, const Path& file, Solution& solution);
+
+/// What another bake needs to go on, beside the blocks: as field data, PlainSums by name.
+/// \pre the solution has a continuation
+[[nodiscard]] PolyData sums_piece(const Solution& solution);
+/// Fills `continuation`; all else must be there.
+void read_sums_piece(vtkPolyData& piece, const Path& file, Solution& solution);
+
+/// The light of one emitter, beside the blocks: as field data an EmitterPart's members.
+[[nodiscard]] std::string emitter_piece_name(std::size_t number);
+[[nodiscard]] PolyData emitter_piece(const EmitterSolution& solution, std::size_t number);
+[[nodiscard]] std::size_t read_emitter_count(vtkPolyData& piece, const Path& file);
+/// Adds the part to those before it. `all` must be there.
+void read_emitter_piece(vtkPolyData& piece, const Path& file, EmitterSolution& solution);
 
 /// A group of bands, beside the blocks: as field data its wavelengths, and a BandGroup's members.
 [[nodiscard]] std::string band_piece_name(int group);

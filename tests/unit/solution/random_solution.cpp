@@ -378,7 +378,7 @@ void expect_equal(const Solution& a, const Solution& b) {
     const auto& [surface, patches, direct, glossy, lighting, cameras, leaf_diffuse, leaf_emission,
                  direct_irradiance, indirect_irradiance, standard_error, spatial_error,
                  directional_error, coverage, glossy_elements, iterations, seed, relative_error,
-                 interrupted, balance, decisions, settings, scene_hash, input_hash] = a;
+                 interrupted, balance, decisions, settings, scene_hash, input_hash, continuation] = a;
     expect_equal(surface, b.surface);
     EXPECT_TRUE(leaf_diffuse == b.leaf_diffuse);
     EXPECT_TRUE(leaf_emission == b.leaf_emission);
