@@ -203,6 +203,7 @@ Row measure(const Condition& condition, const Effort& effort, const Workers& wor
     const auto start = std::chrono::steady_clock::now();
     Row row;
     row.name = condition.name;
+    row.is_balanced = condition.is_balanced;
     row.seeds = condition.seeds > 0 ? condition.seeds : effort.seeds;
     Judge judge(condition, row);
     try {

@@ -93,7 +93,8 @@ int run(const Arguments& a) {
         print(rows.back());
     }
     fmt::print("\n");
-    print_worst("energy error", rows, [](const Row& r) { return std::abs(r.energy.mean); });
+    print_worst("energy error", rows,
+                [](const Row& r) { return r.is_balanced ? std::abs(r.energy.mean) : 0.0; });
     print_worst("closed-form error", rows, [](const Row& r) {
         return r.has_closed_form ? std::abs(r.closed_form.mean) : 0.0;
     });
