@@ -116,7 +116,7 @@ Solution load_solution_to_go_on(const Path& path) {
         throw InputError(path.string(),
                          "holds no sums to go on from: they were not kept, or the bake was "
                          "interrupted before its first direction; accepted: a solution baked with "
-                         "--keep-sums on");
+                         "--keep-sums on, without --keep-emitters");
     Solution solution = load(pieces, path);
     read_sums_piece(*pieces.read("sums"), pieces.file("sums"), solution);
     return solution;
