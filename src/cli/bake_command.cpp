@@ -8,6 +8,7 @@
 #include <transillum/base/error.h>
 #include <transillum/solution/bake.h>
 #include <transillum/solution/bake_bands.h>
+#include <transillum/solution/bake_emitters.h>
 #include <transillum/solution/load_solution.h>
 #include <transillum/solution/save_solution.h>
 
@@ -31,7 +32,7 @@ struct BakeArguments {
     BakeOptions bake;
     SpectralArguments spectral;
     double memory = 0.0;
-    bool keep_phases = false, again = false;
+    bool keep_phases = false, again = false, keep_emitters = false;
     int threads = 0;
 };
 
@@ -47,7 +48,13 @@ void add_options(CLI::App& command, BakeArguments& a) {
         ->group("Output");
     a.bake.iteration.keep_sums = true;
     add_choice(command, "--keep-sums", a.bake.iteration.keep_sums, {{"on", true}, {"off", false}},
-               "what resume needs to go on, in NAME/sums.vtp (not of --spectral)")
+               "what resume needs to go on, in NAME/sums.vtp (not of --spectral or "
+               "--keep-emitters)")
+        ->group("Output");
+    command
+        .add_flag("--keep-emitters", a.keep_emitters,
+                  "transport the light of every emitter alone, which takes as many times as long, "
+                  "so that relight can dim and tint them without another bake")
         ->group("Output");
 
     auto& iteration = a.bake.iteration;
@@ -235,7 +242,9 @@ int run(BakeArguments& a, const Common& common) {
     RunRecord record;
     record.command_line = common.command_line;
     const auto spectral = make_spectral_options(a.spectral, a.scene.max_albedo, scene);
-    if (!a.again && !a.keep_phases && !spectral)
+    if (spectral && a.keep_emitters)
+        throw UsageError("--keep-emitters with --spectral; accepted: one of them");
+    if (!a.again && !a.keep_phases && !a.keep_emitters && !spectral)
         if (const auto solution = find_baked(a.output, hash_input(scene, a.bake))) {
             console.note(a.output +
                          ": unchanged: it was baked from this scene and these options (--again "
@@ -244,11 +253,14 @@ int run(BakeArguments& a, const Common& common) {
             return ExitCode::done;
         }
     SpectralSolution baked;
-    if (spectral)
+    EmitterSolution by_emitters;
+    if (a.keep_emitters)
+        by_emitters = bake_emitters(scene, a.bake, workers, console, &record);
+    else if (spectral)
         baked = bake_bands(scene, *spectral, a.bake, workers, console, &record);
     else
         baked.rgb = bake(scene, a.bake, workers, console, &record);
-    Solution& solution = baked.rgb;
+    Solution& solution = a.keep_emitters ? by_emitters.all : baked.rgb;
     solution.settings.emplace_back("max-albedo", fmt::format("{}", a.scene.max_albedo));
     const char* const sides[] = {"file", "one", "two"};
     solution.settings.emplace_back("sides", sides[static_cast<int>(a.scene.load.sides)]);
@@ -257,7 +269,9 @@ int run(BakeArguments& a, const Common& common) {
         console.warn(fmt::format(
             "{:.1f} % of the light met black backs: is the mesh wound inside out? (--sides two)",
             100.0 * luminance(lost) / luminance(solution.balance.emitted)));
-    if (spectral)
+    if (a.keep_emitters)
+        save_emitter_solution(by_emitters, record, a.output);
+    else if (spectral)
         save_spectral_solution(baked, record, a.output);
     else
         save_solution(solution, record, a.output);

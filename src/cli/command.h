@@ -24,6 +24,7 @@ struct Common {
 
 // Each sets `exit_code` when its subcommand was run.
 void add_bake(CLI::App& program, const Common& common, int& exit_code);
+void add_relight(CLI::App& program, const Common& common, int& exit_code);
 void add_resume(CLI::App& program, const Common& common, int& exit_code);
 void add_walk(CLI::App& program, const Common& common, int& exit_code);
 void add_render(CLI::App& program, const Common& common, int& exit_code);

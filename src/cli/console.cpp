@@ -52,6 +52,7 @@ void Console::progress(const Progress& p) {
         end_progress();
         phase_ = p.phase;
         phase_start_ = now;
+        done_before_ = p.done > 0 ? p.done - 1 : 0;
         last_shown_ = {};
     }
     const bool last = p.total > 0 && p.done >= p.total;
@@ -63,10 +64,10 @@ void Console::progress(const Progress& p) {
     if (p.total > 0) line += fmt::format(" of {}", p.total);
     if (std::isfinite(p.error)) line += fmt::format("  error {:.2f} %", 100.0 * p.error);
     line += fmt::format("  elapsed {}", duration(elapsed));
-    if (p.total > p.done && p.done > 0)
+    if (p.total > p.done && p.done > done_before_)
         line +=
             fmt::format("  remaining {}", duration(elapsed * static_cast<double>(p.total - p.done) /
-                                                   static_cast<double>(p.done)));
+                                                   static_cast<double>(p.done - done_before_)));
     fmt::print(stderr, "{}{:<78}{}", terminal_ ? "\r" : "", line, terminal_ && !last ? "" : "\n");
     std::fflush(stderr);
     line_open_ = terminal_ && !last;

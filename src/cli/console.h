@@ -4,6 +4,7 @@
 #include <transillum/base/monitor.h>
 
 #include <chrono>
+#include <cstdint>
 #include <string>
 
 namespace transillum::cli {
@@ -28,6 +29,7 @@ private:
     bool line_open_ = false;
     std::string phase_;
     Clock::time_point phase_start_ = Clock::now(), last_shown_{};
+    std::uint64_t done_before_ = 0;  ///< by earlier runs, which this one goes on from
 };
 
 }  // namespace transillum::cli

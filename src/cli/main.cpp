@@ -50,6 +50,7 @@ int parse_and_run(int argc, char** argv) {
     program.add_flag("-q,--quiet", common.quiet, "no progress and no notes");
     int exit_code = ExitCode::done;
     add_bake(program, common, exit_code);
+    add_relight(program, common, exit_code);
     add_resume(program, common, exit_code);
     add_render(program, common, exit_code);
     add_walk(program, common, exit_code);

@@ -73,6 +73,7 @@ int run(ResumeArguments& a, const Common& common) {
     require_writable(a.output);
     const std::uint64_t before = solution.iterations;
     RunRecord record = load_run_record(a.solution);
+    record.input_hash.clear();  // it was of what is changed here
     record.command_line = common.command_line;
     resume(solution, a.resume, workers, console, &record);
     for (const Decision& d : solution.decisions) console.note(d.what + ": " + d.why);

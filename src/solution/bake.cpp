@@ -209,7 +209,9 @@ Layout lay_out_solution(const RepairedScene& sound, const BakeOptions& options, 
 }
 
 std::string hash_input(const Scene& scene, const BakeOptions& options) {
-    return hash_input(scene, settings_of(options));
+    auto settings = settings_of(options);
+    settings.emplace_back("keep-sums", options.iteration.keep_sums ? "on" : "off");
+    return hash_input(scene, settings);
 }
 
 Solution bake(const Scene& scene, const BakeOptions& options, const Workers& workers,
@@ -234,10 +236,12 @@ Solution bake(const Scene& scene, const BakeOptions& options, const Workers& wor
     if (sums)
         s.continuation = std::make_shared<Continuation>(Continuation{sums, measure_first_shot(s)});
     s.decisions.insert(s.decisions.begin(), layout.decisions.begin(), layout.decisions.end());
-    s.input_hash = hash_input(scene, options);
     warn_of_sharp_lobes(s, monitor);
     note_decisions(s, monitor);
-    if (run) run->threads = workers.count();
+    if (run) {
+        run->threads = workers.count();
+        run->input_hash = hash_input(scene, options);
+    }
     return std::move(s);
 }
 

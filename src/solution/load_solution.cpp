@@ -109,11 +109,10 @@ Solution load_solution(const Path& path) {
 std::optional<Solution> find_baked(const Path& path, const std::string& input_hash) {
     if (!std::filesystem::exists(path)) return std::nullopt;
     try {
-        const Pieces pieces(path);
-        Solution summary;
-        read_summary(*pieces.read("surface")->GetFieldData(), pieces.file("surface"), summary);
-        if (summary.interrupted || summary.input_hash != input_hash) return std::nullopt;
-        return load(pieces, path);
+        if (load_run_record(path).input_hash != input_hash) return std::nullopt;
+        Solution solution = load_solution(path);
+        if (solution.interrupted) return std::nullopt;
+        return solution;
     } catch (const Error&) {
         return std::nullopt;
     }
@@ -129,7 +128,7 @@ Solution load_solution_to_go_on(const Path& path) {
         throw InputError(path.string(),
                          "holds no sums to go on from: they were not kept, or the bake was "
                          "interrupted before its first direction; accepted: a solution baked with "
-                         "--keep-sums on");
+                         "--keep-sums on, without --keep-emitters");
     Solution solution = load(pieces, path);
     read_sums_piece(*pieces.read("sums"), pieces.file("sums"), solution);
     return solution;

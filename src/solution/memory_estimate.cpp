@@ -57,7 +57,9 @@ void require_memory(const MemoryEstimate& e, std::uint64_t limit) {
         e.monte_carlo == 0
             ? ""
             : fmt::format(", {:.2f} for the Monte-Carlo component", gibibytes(e.monte_carlo)),
-        e.band_groups == 0 ? "" : fmt::format(", {:.2f} for bands or emitters", gibibytes(e.band_groups)),
+        e.band_groups == 0
+            ? ""
+            : fmt::format(", {:.2f} for bands or emitters", gibibytes(e.band_groups)),
         e.kept_sums == 0 ? ""
                          : fmt::format(", {:.2f} for sums to go on from (--keep-sums off)",
                                        gibibytes(e.kept_sums)),

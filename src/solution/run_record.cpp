@@ -17,6 +17,7 @@ std::string format_run_record(const RunRecord& run) {
     for (const auto& [phase, seconds] : run.seconds) {
         json["seconds"].push_back({{"phase", phase}, {"seconds", seconds}});
     }
+    if (!run.input_hash.empty()) json["input_hash"] = run.input_hash;
     // File names on a command line need not be UTF-8.
     return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
@@ -26,7 +27,8 @@ RunRecord load_run_record(const std::filesystem::path& path) {
     if (!std::filesystem::exists(file)) return {};
     try {
         const auto json = nlohmann::json::parse(read_bytes(file));
-        RunRecord run{json.at("command_line"), json.at("threads"), {}};
+        RunRecord run{json.at("command_line"), json.at("threads"), {}, {}};
+        if (json.contains("input_hash")) run.input_hash = json.at("input_hash");
         for (const auto& entry : json.at("seconds")) {
             run.seconds.emplace_back(entry.at("phase"), entry.at("seconds"));
         }

@@ -53,7 +53,7 @@ struct BakeOptions {
 [[nodiscard]] Solution bake(const Scene& scene, const BakeOptions& options, const Workers& workers,
                             Monitor& monitor, RunRecord* run = nullptr);
 
-/// What bake keeps as Solution::input_hash.
+/// What bake keeps as RunRecord::input_hash.
 [[nodiscard]] std::string hash_input(const Scene& scene, const BakeOptions& options);
 
 }  // namespace transillum

@@ -26,13 +26,16 @@
 
 namespace transillum {
 
-inline constexpr int solution_format_version = 3;
+inline constexpr int solution_format_version = 2;
 
 /// Facts of one run, kept beside the solution because they are no part of it.
 struct RunRecord {
     std::string command_line;
     int threads = 0;
     std::vector<std::pair<std::string, double>> seconds;  ///< wall time by phase
+    /// Of the scene as it was read, and of the options: baked again they give this solution. Empty
+    /// where it is not to be found again, as of bands.
+    std::string input_hash;
 };
 
 /// Writes into a temporary folder beside the target and renames; an older solution of that name

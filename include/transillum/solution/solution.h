@@ -72,9 +72,6 @@ struct Solution {
     /// Options the result depends on, by name (never thread count, file names or times).
     std::vector<std::pair<std::string, std::string>> settings;
     std::string scene_hash;  ///< of the geometry and materials that were baked, hexadecimal
-    /// Of the scene as it was read, and of the options: baked again they give this solution. Empty
-    /// where it is not to be found again, as of bands.
-    std::string input_hash;
     std::shared_ptr<const Continuation> continuation;  ///< null unless it was kept, and loaded
 
     [[nodiscard]] const Material& material_of(std::uint32_t patch) const {

@@ -55,7 +55,6 @@ void add_summary(const Solution& solution, vtkFieldData& fields) {
     add_strings(fields, "SettingName", column(solution.settings, &Setting::first));
     add_strings(fields, "SettingValue", column(solution.settings, &Setting::second));
     add_strings(fields, "SceneHash", {solution.scene_hash});
-    add_strings(fields, "InputHash", {solution.input_hash});
 }
 
 void read_summary(vtkFieldData& fields, const Path& file, Solution& solution) {
@@ -78,7 +77,6 @@ void read_summary(vtkFieldData& fields, const Path& file, Solution& solution) {
     solution.settings =
         read_pairs<std::pair<std::string, std::string>>(reader, "SettingName", "SettingValue");
     solution.scene_hash = reader.read_strings("SceneHash", 1)[0];
-    solution.input_hash = reader.read_strings("InputHash", 1)[0];
 }
 
 }  // namespace transillum

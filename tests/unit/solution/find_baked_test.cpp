@@ -41,8 +41,9 @@ protected:
 
     Solution save(const Scene& scene, const BakeOptions& options) const {
         Monitor silent;
-        const Solution s = bake(scene, options, Workers(1), silent);
-        save_solution(s, {}, path_);
+        RunRecord run;
+        const Solution s = bake(scene, options, Workers(1), silent, &run);
+        save_solution(s, run, path_);
         return s;
     }
 
@@ -53,7 +54,6 @@ protected:
 TEST_F(FindBaked, FindsWhatWasBakedFromTheSameInput) {
     EXPECT_FALSE(find_baked(path_, hash_input(room(), quick())));
     const Solution s = save(room(), quick());
-    EXPECT_EQ(s.input_hash, hash_input(room(), quick()));
     const auto found = find_baked(path_, hash_input(room(), quick()));
     ASSERT_TRUE(found);
     EXPECT_EQ(found->indirect_irradiance, s.indirect_irradiance);
@@ -77,14 +77,18 @@ TEST_F(FindBaked, FindsNothingOfAnotherInput) {
 
 TEST_F(FindBaked, FindsNothingUnfinishedOrDamaged) {
     Solution s = save(room(), quick());
+    const RunRecord run = load_run_record(path_);
     s.interrupted = true;
-    save_solution(s, {}, path_);
-    EXPECT_FALSE(find_baked(path_, s.input_hash));
+    save_solution(s, run, path_);
+    EXPECT_FALSE(find_baked(path_, run.input_hash));
     s.interrupted = false;
-    save_solution(s, {}, path_);
-    EXPECT_TRUE(find_baked(path_, s.input_hash));
+    save_solution(s, run, path_);
+    EXPECT_TRUE(find_baked(path_, run.input_hash));
     std::ofstream(folder_ / "room" / "radiance.vtp", std::ios::app) << ' ';
-    EXPECT_FALSE(find_baked(path_, s.input_hash));
+    EXPECT_FALSE(find_baked(path_, run.input_hash));
+    save_solution(s, run, path_);
+    std::ofstream(folder_ / "room" / "run.json") << "{";
+    EXPECT_FALSE(find_baked(path_, run.input_hash));
 }
 
 }  // namespace

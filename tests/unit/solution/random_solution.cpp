@@ -225,7 +225,6 @@ void add_summary(Dice& dice, Solution& solution) {
         solution.settings.emplace_back(dice.text(), dice.text());
     }
     solution.scene_hash = dice.text();
-    solution.input_hash = dice.text();
 }
 
 // Structured bindings name every member: a member added later does not compile until it is
@@ -378,7 +377,7 @@ void expect_equal(const Solution& a, const Solution& b) {
     const auto& [surface, patches, direct, glossy, lighting, cameras, leaf_diffuse, leaf_emission,
                  direct_irradiance, indirect_irradiance, standard_error, spatial_error,
                  directional_error, coverage, glossy_elements, iterations, seed, relative_error,
-                 interrupted, balance, decisions, settings, scene_hash, input_hash, continuation] = a;
+                 interrupted, balance, decisions, settings, scene_hash, continuation] = a;
     expect_equal(surface, b.surface);
     EXPECT_TRUE(leaf_diffuse == b.leaf_diffuse);
     EXPECT_TRUE(leaf_emission == b.leaf_emission);
@@ -402,7 +401,6 @@ void expect_equal(const Solution& a, const Solution& b) {
     expect_equal_structs(decisions, b.decisions);
     EXPECT_EQ(settings, b.settings);
     EXPECT_EQ(scene_hash, b.scene_hash);
-    EXPECT_EQ(input_hash, b.input_hash);
 }
 
 fs::path fresh_folder() {

@@ -197,6 +197,19 @@ TEST_F(Resume, BeginsTheMonteCarloComponentAnew) {
     EXPECT_LT(difference / sum, 3e-3);
 }
 
+// Once it is found not to be worth it, nothing more is carried.
+TEST_F(Resume, KeepsToGivingUpTheMonteCarloComponent) {
+    SceneBuilder b;
+    b.box({0, 0, 0}, {1, 1, 1}, Facing::inwards, b.material(Spectrum(0.6f), Spectrum(0.4f)));
+    BakeOptions options = small_bake(400);
+    options.iteration.monte_carlo = MonteCarlo::automatic;
+    const Solution whole = bake_to(b.scene, options);
+    ASSERT_THAT(whole.decisions.back().what, testing::HasSubstr("carried"));
+    ASSERT_FALSE(whole.spatial_error.empty());
+    options.iteration.iterations = 300;
+    expect_same_bytes(gone_on(bake_to(b.scene, options), {.iterations = 100}), whole);
+}
+
 TEST_F(Resume, IsRefusedWhereTablesWouldTakeTooMuchMemory) {
     Solution part = bake_to(under_a_sky(), small_bake(8));
     Monitor silent;
