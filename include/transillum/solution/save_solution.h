@@ -35,7 +35,7 @@ struct RunRecord {
     std::vector<std::pair<std::string, double>> seconds;  ///< wall time by phase
     /// Of the scene as it was read, and of the options: baked again they give this solution. Empty
     /// where it is not to be found again, as of bands.
-    std::string input_hash;
+    std::string input_hash{};
 };
 
 /// Writes into a temporary folder beside the target and renames; an older solution of that name
