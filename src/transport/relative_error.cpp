@@ -68,10 +68,12 @@ double variance_of_parts(std::span<const DirectionPart> parts, double a) {
 ErrorModel fit_error_model(std::span<const AverageMove> moves) {
     ErrorModel best;
     double least = std::numeric_limits<double>::infinity();
+    // Logarithms of ratios: sources twice as bright change no bit of what is told.
+    const double unit = moves.front().mean_square;
     for (double a = least_a; a < most_a + 0.5 * step_of_a; a += step_of_a) {
         double mean = 0.0, square = 0.0;
         for (const AverageMove& m : moves) {
-            const double x = std::log(m.mean_square / variance_of_parts(m.difference, a));
+            const double x = std::log(m.mean_square / unit / variance_of_parts(m.difference, a));
             mean += x;
             square += x * x;
         }
@@ -81,7 +83,7 @@ ErrorModel fit_error_model(std::span<const AverageMove> moves) {
                               std::pow((a - usual_a) / spread_of_a, 2.0);
         if (misfit < least) {
             least = misfit;
-            best = {std::exp(mean), a};
+            best = {unit * std::exp(mean), a};
         }
     }
     return best;
