@@ -21,8 +21,10 @@ struct RelightArguments {
     std::vector<std::string> factors;  ///< NAME=F or NAME=R,G,B
 };
 
-/// \param text F or R,G,B
-Spectrum parse_factor(const std::string& text, const std::string& argument) {
+/// \param argument NAME=F or NAME=R,G,B
+Spectrum parse_factor(const std::string& argument) {
+    const std::size_t equals = argument.rfind('=');
+    const std::string text = equals == std::string::npos ? "" : argument.substr(equals + 1);
     std::vector<float> numbers(1);
     const char* at = text.data();
     const char* const last = text.data() + text.size();
@@ -48,10 +50,8 @@ int run(const RelightArguments& a, const Common& common) {
     require_writable(a.output);
     for (const EmitterPart& part : solution.parts) console.note("emitter " + part.emitter.name);
     for (const std::string& argument : a.factors) {
-        const std::size_t equals = argument.rfind('=');
-        if (equals == std::string::npos) static_cast<void>(parse_factor("?", argument));
-        scale_emitter(solution, argument.substr(0, equals),
-                      parse_factor(argument.substr(equals + 1), argument));
+        const Spectrum factor = parse_factor(argument);
+        scale_emitter(solution, argument.substr(0, argument.rfind('=')), factor);
     }
     RunRecord record = load_run_record(a.solution);
     record.input_hash.clear();  // it was of what is changed here

@@ -40,7 +40,7 @@ void add_options(CLI::App& command, ResumeArguments& a) {
         ->group(stopping);
     command
         .add_option("--target-error", a.resume.target_error,
-                    "estimated relative error, as 0.01; 0: none")
+                    "relative error, as 0.01; 0: none. The estimate is held below it by a fifth")
         ->check(within(0.0, 1.0))
         ->capture_default_str()
         ->group(stopping);
