@@ -6,6 +6,7 @@
 // The reference is what `transillum reference SCENE --camera CAMERA` made; its noise is part of
 // every error. VARIANT: only those with that in their name. Seconds: of the bake and of the
 // picture.
+#include "benchmarks/clock.h"
 #include "benchmarks/errors.h"
 #include "benchmarks/measured_scene.h"
 #include "benchmarks/variants.h"

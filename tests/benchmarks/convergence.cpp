@@ -15,6 +15,7 @@
 //                                         which differ from seed to seed, nor of `reference`
 // The picture's truth is path-traced, twice; how far these two are apart tells its own noise
 // (stderr). Light samples are chosen by the seed, too: their spread is part of the rest.
+#include "benchmarks/clock.h"
 #include "benchmarks/errors.h"
 #include "benchmarks/measured_scene.h"
 #include "benchmarks/variants.h"

@@ -5,22 +5,10 @@
 #include <transillum/render/image.h>
 #include <transillum/solution/solution.h>
 
-#include <chrono>
 #include <span>
 #include <vector>
 
 namespace transillum::benchmarks {
-
-/// Wall time since it was made.
-class Clock {
-public:
-    [[nodiscard]] double seconds() const {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-    }
-
-private:
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 /// A mean over seeds with the ends of its 95 % confidence interval (Student's); NaN of one seed.
 struct Band {

@@ -4,8 +4,9 @@
 //
 // One line a file. Seconds: of check (leaks are not looked for) and of repair, after loading. Peak:
 // memory up to the end of the repair [MiB]. Harmful: counts of all harmful defects, and which are
-// left. Hausdorff (sampled), area of the union (change, relative; what overlaps within the tolerance
-// counts once) and largest move: whether the surface is the same one.
+// left. Hausdorff (sampled), area of the union (change, relative; what overlaps within the
+// tolerance counts once) and largest move: whether the surface is the same one.
+#include "benchmarks/clock.h"
 #include "support/surface_distance.h"
 #include "support/union_area.h"
 
@@ -19,7 +20,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -29,17 +29,8 @@
 namespace {
 
 using namespace transillum;
+using benchmarks::Clock;
 using namespace transillum::testing_support;
-
-class Clock {
-public:
-    [[nodiscard]] double seconds() const {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-    }
-
-private:
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 double peak_mebibytes() {
     rusage usage{};

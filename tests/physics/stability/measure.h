@@ -24,7 +24,7 @@ struct Row {
     std::uint32_t leaves = 0;
     /// Flux that is missing or too much, over what there is, of the worst channel (validation A4).
     Deviation energy;
-    bool is_balanced = true;  ///< else energy had too few directions to settle
+    bool is_balanced = true;  ///< else energy had too few directions to settle, and is not judged
     bool has_closed_form = false;
     Deviation closed_form;
     double least = std::numeric_limits<double>::infinity();  ///< radiance
