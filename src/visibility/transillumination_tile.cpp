@@ -33,35 +33,33 @@ constexpr double depth_rounding = 0x1p24;
     return nearest;
 }
 
-/// Inlined, so that it is compiled for the target of each of the callers' versions.
-/// \param cells table of a mixed root, or none
-[[gnu::always_inline]] inline std::array<std::uint32_t, block> leaves_of_block(
-    int level, const std::uint32_t* cells, float s0, float ds, float t0, float dt) {
-    std::array<std::uint32_t, block> leaves;
-    for (int i = 0; i < block; ++i)
-        leaves[i] =
-            leaf_in_root(level, s0 + ds * static_cast<float>(i), t0 + dt * static_cast<float>(i));
-    if (cells != nullptr)
-        for (std::uint32_t& leaf : leaves) leaf = cells[leaf];
-    return leaves;
-}
-
 using Keys = std::uint64_t __attribute__((vector_size(32), aligned(8), may_alias));
 using Pixels = std::uint16_t __attribute__((vector_size(16), aligned(2), may_alias));
 using Lengths = std::uint32_t __attribute__((vector_size(32), aligned(4), may_alias));
 
+/// Lower halves of the fragments of a block.
+struct BlockLeaves {
+    Keys first, second;
+};
+
+/// Of a root that is one leaf.
+class OneLeaf {
+public:
+    explicit OneLeaf(std::uint64_t low) : low_(low) {}
+    void begin_span(int, int) {}
+    [[gnu::always_inline]] BlockLeaves next_block() const { return {Keys{} + low_, Keys{} + low_}; }
+
+private:
+    std::uint64_t low_;
+};
+
 /// \param z of the first pixel, in steps of 2^-depth_fraction of those that are kept
 [[gnu::always_inline]] inline void store_keys(Fragment* out, std::uint64_t z, std::uint64_t step,
-                                              std::uint64_t low,
-                                              const std::array<std::uint32_t, block>& leaf) {
-    Keys first = z + step * Keys{0, 1, 2, 3};
-    Keys second = first + 4 * step;
-    first =
-        ((first << depth_shift) & depth_bits) | (low + Keys{leaf[0], leaf[1], leaf[2], leaf[3]});
-    second =
-        ((second << depth_shift) & depth_bits) | (low + Keys{leaf[4], leaf[5], leaf[6], leaf[7]});
-    *reinterpret_cast<Keys*>(out) = first;
-    *reinterpret_cast<Keys*>(out + 4) = second;
+                                              const BlockLeaves& leaves) {
+    const Keys first = z + step * Keys{0, 1, 2, 3};
+    const Keys second = first + 4 * step;
+    *reinterpret_cast<Keys*>(out) = ((first << depth_shift) & depth_bits) | leaves.first;
+    *reinterpret_cast<Keys*>(out + 4) = ((second << depth_shift) & depth_bits) | leaves.second;
 }
 
 [[gnu::always_inline]] inline void store_pixels(std::uint16_t* pixel, int at) {
@@ -107,6 +105,44 @@ private:
     static std::uint64_t to_whole(double x) {
         return static_cast<std::uint64_t>(static_cast<std::int64_t>(x));
     }
+};
+
+/// Of a root with many leaves: what each pixel's barycentric coordinates say. Inlined, so that it
+/// is compiled for the target of each of the callers' versions.
+class TransilluminationBuffer::LeavesAlong {
+public:
+    /// \param cells table of a mixed root, or none
+    LeavesAlong(std::uint64_t low, int level, const std::uint32_t* cells,
+                const std::array<Plane, 2>& barycentric)
+        : low_(low),
+          level_(level),
+          cells_(cells),
+          barycentric_(barycentric),
+          ds_(static_cast<float>(barycentric[0].dx)),
+          dt_(static_cast<float>(barycentric[1].dx)) {}
+    [[gnu::always_inline]] void begin_span(int x, int y) {
+        s_ = static_cast<float>(barycentric_[0].at(x, y));
+        t_ = static_cast<float>(barycentric_[1].at(x, y));
+    }
+    [[gnu::always_inline]] BlockLeaves next_block() {
+        std::array<std::uint32_t, block> leaf;
+        for (int i = 0; i < block; ++i)
+            leaf[i] = leaf_in_root(level_, s_ + ds_ * static_cast<float>(i),
+                                   t_ + dt_ * static_cast<float>(i));
+        if (cells_ != nullptr)
+            for (std::uint32_t& l : leaf) l = cells_[l];
+        s_ += block * ds_;
+        t_ += block * dt_;
+        return {low_ + Keys{leaf[0], leaf[1], leaf[2], leaf[3]},
+                low_ + Keys{leaf[4], leaf[5], leaf[6], leaf[7]}};
+    }
+
+private:
+    std::uint64_t low_;
+    int level_;
+    const std::uint32_t* cells_;
+    std::array<Plane, 2> barycentric_;
+    float ds_, dt_, s_ = 0.0f, t_ = 0.0f;
 };
 
 /// Through the vertices in the order of their numbers: triangles on the same three vertices then
@@ -188,36 +224,25 @@ void TransilluminationBuffer::draw(std::uint32_t root, const TileRect& rect, Scr
     const bool from_ahead = area > 0;
     const std::uint64_t facing = from_ahead ? 0x80000000u : 0u;
     const RootPatches& patches = patches_.roots[root];
-    std::array<Plane, 2> b{};
-    if (patches.level > 0) b = barycentric_planes(fixed, area);
     const std::array<FixedPoint, 3> turning{fixed[0], fixed[from_ahead ? 1 : 2],
                                             fixed[from_ahead ? 2 : 1]};
-
     const std::uint64_t low = facing | patches.first_leaf;
-    const std::uint32_t* const cells = patches.mixed == RootPatches::uniform
-                                           ? nullptr
-                                           : patches_.mixed_roots[patches.mixed].cells.data();
-    const auto ds = static_cast<float>(b[0].dx), dt = static_cast<float>(b[1].dx);
-
     scratch.reserve();
     Fragment* out = scratch.drawn.data() + scratch.count;
     std::uint16_t* pixel = scratch.pixel.data() + scratch.count;
     std::uint32_t* const lengths = scratch.first.data() + 1;
     const int width = rect.x1 - rect.x0;
-    scan_convert(
-        turning, sub_pixel_bits_,
-        rect, [&](std::int32_t y, std::int32_t x0, std::int32_t x1) __attribute__((always_inline)) {
+    const auto draw_spans = [&](auto leaves) __attribute__((always_inline)) {
+        const auto draw_span = [&](std::int32_t y, std::int32_t x0, std::int32_t x1)
+            __attribute__((always_inline)) {
             int at = (y - rect.y0) * width + (x0 - rect.x0);
             int length = x1 - x0;
             std::uint64_t z = z_ramp.at(x0, y, rect, depth);
-            auto s0 = static_cast<float>(b[0].at(x0, y)), t0 = static_cast<float>(b[1].at(x0, y));
+            leaves.begin_span(x0, y);
             // Whole blocks, of which the next span overwrites what is too much, and always one:
             // short spans would mispredict a loop's end.
             do {
-                const std::array<std::uint32_t, block> leaf =
-                    patches.level == 0 ? std::array<std::uint32_t, block>{}
-                                       : leaves_of_block(patches.level, cells, s0, ds, t0, dt);
-                store_keys(out, z, z_ramp.step, low, leaf);
+                store_keys(out, z, z_ramp.step, leaves.next_block());
                 store_pixels(pixel, at);
                 add_lengths(lengths + at, length);
                 const int taken = std::clamp(length, 0, block);
@@ -225,11 +250,19 @@ void TransilluminationBuffer::draw(std::uint32_t root, const TileRect& rect, Scr
                 pixel += taken;
                 at += block;
                 z += block * z_ramp.step;
-                s0 += block * ds;
-                t0 += block * dt;
                 length -= block;
             } while (length > 0);
-        });
+        };
+        scan_convert(turning, sub_pixel_bits_, rect, draw_span);
+    };
+    if (patches.level == 0)
+        draw_spans(OneLeaf(low));
+    else
+        draw_spans(LeavesAlong(low, patches.level,
+                               patches.mixed == RootPatches::uniform
+                                   ? nullptr
+                                   : patches_.mixed_roots[patches.mixed].cells.data(),
+                               barycentric_planes(fixed, area)));
     scratch.count = static_cast<std::size_t>(out - scratch.drawn.data());
 }
 

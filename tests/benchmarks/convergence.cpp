@@ -14,7 +14,10 @@
 //                                         a long run on the same leaves; none of refined leaves,
 //                                         which differ from seed to seed, nor of `reference`
 // The picture's truth is path-traced, twice; how far these two are apart tells its own noise
-// (stderr). Light samples are chosen by the seed, too: their spread is part of the rest.
+// (stderr), which is taken out of the errors. Light samples are chosen by the seed, too: their
+// spread is part of the rest. The summary (stderr) tells the seconds to an error: between counts by
+// interpolation, and of `reference`, which has no bias, beyond them as its noise falls, with the
+// root of the paths.
 #include "benchmarks/clock.h"
 #include "benchmarks/errors.h"
 #include "benchmarks/measured_scene.h"
@@ -70,7 +73,8 @@ std::string errors_as_csv(const SeedErrors& e) {
                        e.error.high, e.bias, e.spread);
 }
 
-/// Seconds until an error is reached, by interpolation between powers; infinite where it is not.
+/// Seconds until an error is reached, by interpolation between powers. \returns infinity where it
+/// is not
 double seconds_to(const std::vector<Row>& rows, double level) {
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const double seconds = rows[i].bake_seconds + rows[i].render_seconds;
@@ -83,6 +87,14 @@ double seconds_to(const std::vector<Row>& rows, double level) {
                                  std::log(error_before / level) / std::log(error_before / error));
     }
     return std::numeric_limits<double>::infinity();
+}
+
+/// The same of what has no bias, beyond its last row, too.
+double seconds_of_unbiased_to(const std::vector<Row>& rows, double level) {
+    const double among = seconds_to(rows, level);
+    if (std::isfinite(among)) return among;
+    const double over = rows.back().image.error.mean / level;
+    return rows.back().render_seconds * over * over;
 }
 
 /// Exponent of a leaf error that falls as a power of the directions, from its first to its last.
@@ -105,7 +117,7 @@ public:
         repair.rounding = Rounding::dyadic;
         surface_ =
             build_surface(repair_scene(scene_, repair, workers_, silent_).scene, {}, silent_);
-        camera_ = choose_camera(scene_.cameras, surface_, a.view.camera);
+        camera_ = camera_of(a.view, scene_.cameras, surface_);
         make_truth();
     }
 
@@ -118,12 +130,9 @@ public:
 private:
     void make_truth() {
         std::fprintf(stderr, "%s: truth ...", name_.c_str());
-        truth_ = trace(arguments_.truth_samples / 2, seed_of_truth);
-        const Image other = trace(arguments_.truth_samples / 2, seed_of_truth + 1);
-        const double apart = compare_images(truth_, other).relative_rmse;
-        for (std::size_t i = 0; i < truth_.pixels.size(); ++i)
-            truth_.pixels[i] = 0.5f * (truth_.pixels[i] + other.pixels[i]);
-        std::fprintf(stderr, "\r%s: truth within about %.2f %%\n", name_.c_str(), 50.0 * apart);
+        const int samples = arguments_.truth_samples / 2;
+        truth_ = truth_of(trace(samples, seed_of_truth), trace(samples, seed_of_truth + 1));
+        std::fprintf(stderr, "\r%s: truth's noise %.2f %%\n", name_.c_str(), 100.0 * truth_.noise);
     }
 
     Image trace(int samples, std::uint64_t seed) {
@@ -214,12 +223,18 @@ private:
 
     void sum_up(const char* method, const std::vector<Row>& rows) {
         if (rows.empty()) return;
-        const double seconds = seconds_to(rows, arguments_.level);
-        if (std::string(method) == "reference") seconds_of_reference_ = seconds;
+        const bool is_reference = std::string(method) == "reference";
+        const double seconds = is_reference ? seconds_of_unbiased_to(rows, arguments_.level)
+                                            : seconds_to(rows, arguments_.level);
         std::fprintf(stderr, "%s, %s: %.4g s to %.3g %%", name_.c_str(), method, seconds,
                      100.0 * arguments_.level);
-        if (std::isfinite(seconds) && seconds_of_reference_ > 0.0)
-            std::fprintf(stderr, ", `reference` over that: %.3g", seconds_of_reference_ / seconds);
+        if (is_reference) {
+            seconds_of_reference_ = seconds;
+        } else if (std::isfinite(seconds) && seconds_of_reference_ > 0.0) {
+            std::fprintf(stderr, ", `reference` over that: %.3g; over a picture of it alone: %.3g",
+                         seconds_of_reference_ / seconds,
+                         seconds_of_reference_ / rows.back().render_seconds);
+        }
         if (rows.front().leaf && rows.size() > 1)
             std::fprintf(stderr, "; leaf error falls as m^%.2f", fall(rows));
         std::fputc('\n', stderr);
@@ -233,7 +248,7 @@ private:
     BakeOptions common_;
     SurfaceMesh surface_;
     Camera camera_;
-    Image truth_;
+    ImageTruth truth_;
     double seconds_of_reference_ = 0.0;
 };
 
@@ -253,16 +268,47 @@ std::string names_of_methods() {
     return names;
 }
 
+/// --eye, --look-at, --up and --fov, of scenes from files without a camera.
+struct FreeView {
+    std::vector<double> eye, look_at, up{0.0, 1.0, 0.0};
+    double fov = 45.0;
+
+    void add_to(CLI::App& program) {
+        const auto vector = [&](const char* name, std::vector<double>& value) {
+            return program.add_option(name, value)->expected(3)->delimiter(',')->type_name("X,Y,Z");
+        };
+        auto* const at = vector("--look-at", look_at);
+        vector("--eye", eye)->needs(at);
+        vector("--up", up)->needs(at)->capture_default_str();
+        program.add_option("--fov", fov, "vertical [degrees]")->needs(at)->capture_default_str();
+    }
+
+    [[nodiscard]] std::optional<Camera> camera() const {
+        if (eye.empty()) return std::nullopt;
+        const auto point = [](const std::vector<double>& v) {
+            return glm::dvec3(v[0], v[1], v[2]);
+        };
+        Camera camera;
+        camera.eye = point(eye);
+        camera.look_at = point(look_at);
+        camera.up = point(up);
+        camera.vertical_fov = fov;
+        return camera;
+    }
+};
+
 }  // namespace
 
 int main(int argc, char** argv) try {
     Arguments a;
+    FreeView free;
     CLI::App program(
         "Error against seconds and directions, at several seeds. CSV on stdout, progress and a "
         "summary on stderr.");
     program.add_option("SCENE", a.scenes)->required();
     program.add_option("--method", a.methods, "only these, by name: " + names_of_methods());
     program.add_option("--camera", a.view.camera, "empty: the scene's first");
+    free.add_to(program);
     program.add_option("--width", a.view.width)->check(CLI::PositiveNumber)->capture_default_str();
     program.add_option("--height", a.view.height)
         ->check(CLI::PositiveNumber)
@@ -287,6 +333,7 @@ int main(int argc, char** argv) try {
         ->capture_default_str();
     program.add_option("--threads", a.threads, "0: all")->capture_default_str();
     CLI11_PARSE(program, argc, argv);
+    a.view.free = free.camera();
     return run(a);
 } catch (const std::exception& e) {
     std::fprintf(stderr, "bench_convergence: %s\n", e.what());

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace transillum::benchmarks {
 
@@ -72,14 +73,27 @@ Band band_of(std::span<const double> values) {
     return band;
 }
 
-SeedErrors image_errors(const std::vector<Image>& runs, const Image& truth) {
+ImageTruth truth_of(Image one, const Image& other) {
+    ImageTruth truth;
+    truth.noise = 0.5 * compare_images(one, other).relative_rmse;
+    for (std::size_t i = 0; i < one.pixels.size(); ++i)
+        one.pixels[i] = 0.5f * (one.pixels[i] + other.pixels[i]);
+    truth.image = std::move(one);
+    return truth;
+}
+
+SeedErrors image_errors(const std::vector<Image>& runs, const ImageTruth& truth) {
+    const auto from_truth = [&](const Image& image) {
+        const double all = compare_images(image, truth.image).relative_rmse;
+        return std::sqrt(std::max(0.0, all * all - truth.noise * truth.noise));
+    };
     const Image mean = mean_of(runs);
     std::vector<double> errors, from_mean;
     for (const Image& image : runs) {
-        errors.push_back(compare_images(image, truth).relative_rmse);
+        errors.push_back(from_truth(image));
         from_mean.push_back(compare_images(image, mean).relative_rmse);
     }
-    return divide(errors, from_mean, compare_images(mean, truth).relative_rmse);
+    return divide(errors, from_mean, from_truth(mean));
 }
 
 LeafField irradiance_of(const Solution& s, bool indirect) {

@@ -23,8 +23,16 @@ struct SeedErrors {
     double spread = 0.0;  ///< root mean square of the standard deviation over seeds
 };
 
+/// An unbiased picture: the mean of two that are independent. How far these are apart tells its own
+/// noise, which adds to the square of every difference from it and is taken out of there again.
+struct ImageTruth {
+    Image image;
+    double noise = 0.0;  ///< relative RMSE
+};
+[[nodiscard]] ImageTruth truth_of(Image one, const Image& other);
+
 /// As compare_images() does it: pixels that see an emitter are left out.
-[[nodiscard]] SeedErrors image_errors(const std::vector<Image>& runs, const Image& truth);
+[[nodiscard]] SeedErrors image_errors(const std::vector<Image>& runs, const ImageTruth& truth);
 
 /// Luminance of something that every patch has, and how much each patch weighs.
 struct LeafField {

@@ -41,6 +41,10 @@ Solution bake_variant(const Variant& v, std::uint64_t directions, const Scene& s
     return bake(scene, options, workers, silent);
 }
 
+Camera camera_of(const View& view, const std::vector<Camera>& cameras, const SurfaceMesh& surface) {
+    return view.free ? *view.free : choose_camera(cameras, surface, view.camera);
+}
+
 Image render_variant(const Variant& v, std::uint64_t directions, const Solution& solution,
                      const View& view, const Workers& workers) {
     Monitor silent;
@@ -50,8 +54,8 @@ Image render_variant(const Variant& v, std::uint64_t directions, const Solution&
     options.monte_carlo = v.shown;
     options.iterations = v.shown == MonteCarloShading::off ? 1 : static_cast<int>(directions);
     options.seed = solution.seed;
-    return render_solution(solution, choose_camera(solution.cameras, solution.surface, view.camera),
-                           options, workers, silent);
+    return render_solution(solution, camera_of(view, solution.cameras, solution.surface), options,
+                           workers, silent);
 }
 
 }  // namespace transillum::benchmarks

@@ -7,6 +7,7 @@
 #include <transillum/solution/bake.h>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,9 +32,13 @@ struct Variant {
                                     const Workers& workers);
 
 struct View {
-    std::string camera;  ///< empty: the scene's first
+    std::string camera;          ///< empty: the scene's first
+    std::optional<Camera> free;  ///< instead of one of the scene's
     int width = 100, height = 100;
 };
+/// \throws what choose_camera() does
+[[nodiscard]] Camera camera_of(const View& view, const std::vector<Camera>& cameras,
+                               const SurfaceMesh& surface);
 /// \param directions of the bake: as many bundles again, where the variant's pictures take any
 [[nodiscard]] Image render_variant(const Variant& variant, std::uint64_t directions,
                                    const Solution& solution, const View& view,

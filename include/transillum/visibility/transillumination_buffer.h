@@ -104,6 +104,7 @@ private:
     struct Scratch;
     struct Plane;
     struct DepthRamp;
+    class LeavesAlong;
     struct ProjectedVertex {
         std::int32_t x, y;  ///< pixels / fixed_unit_
         double depth;       ///< in [0, 2^63)
