@@ -35,14 +35,25 @@ struct ClusterState {
         const double squared = arrived_squared[channel];
         return squared > 0.0 ? arrived[channel] * arrived[channel] / squared : 0.0;
     }
+    ClusterState& operator+=(const ClusterState& other) {
+        coverage += other.coverage;
+        incoming += other.incoming;
+        reflected += other.reflected;
+        source += other.source;
+        albedo += other.albedo;
+        arrived += other.arrived;
+        arrived_squared += other.arrived_squared;
+        return *this;
+    }
 };
+using ClusterStates = std::vector<ClusterState>;
 
-std::vector<ClusterState> measure_clusters(const FiniteElementComponent& component,
-                                           const Clusters& clusters) {
-    std::vector<ClusterState> states(clusters.count);
-    for (std::uint32_t p = 0; p < component.patch_count(); ++p) {
+ClusterStates measure_clusters(const FiniteElementComponent& component, const Clusters& clusters,
+                               const Workers& workers) {
+    const auto measure_patch = [&](ClusterStates& states, std::size_t i) {
+        const auto p = static_cast<std::uint32_t>(i);
         const double c = component.coverage(p);
-        if (c == 0.0) continue;
+        if (c == 0.0) return;
         ClusterState& s = states[clusters.of_patch[p]];
         s.coverage += c;
         const SpectrumSum incoming = component.incoming(p);
@@ -52,8 +63,11 @@ std::vector<ClusterState> measure_clusters(const FiniteElementComponent& compone
         s.reflected += c * component.reflected(p);
         s.source += c * component.source(p);
         s.albedo += c * component.mean_albedo(p);
-    }
-    return states;
+    };
+    return fold(workers, component.patch_count(), ClusterStates(clusters.count), measure_patch,
+                [](ClusterStates& all, const ClusterStates& part) {
+                    for (std::size_t i = 0; i < all.size(); ++i) all[i] += part[i];
+                });
 }
 
 /// Square system with a unit diagonal less something non-negative, columns summing to at least 0:
@@ -80,9 +94,8 @@ bool solve(std::vector<double>& a, std::uint32_t n, std::vector<double>& x) {
 }
 
 /// Mean incoming radiance of every cluster in balance, in one channel.
-std::vector<double> solve_channel(const std::vector<ClusterState>& states,
-                                  const ClusterTransfer& transfer, BalanceShape shape,
-                                  int channel) {
+std::vector<double> solve_channel(const ClusterStates& states, const ClusterTransfer& transfer,
+                                  BalanceShape shape, int channel) {
     const std::uint32_t n = transfer.count;
     // Residuals have signs. Where they outweigh all else, between clusters that hardly see each
     // other, next to nothing is received.
@@ -131,16 +144,26 @@ std::vector<double> solve_channel(const std::vector<ClusterState>& states,
 
 /// No radiance that arrives exceeds the largest source over 1 - albedo; of lobes, whose albedo
 /// depends on the angle, nothing is said.
-SpectrumSum largest_incoming(const FiniteElementComponent& component, float brightest_environment) {
-    SpectrumSum source(brightest_environment), albedo(0.0);
-    for (std::uint32_t p = 0; p < component.patch_count(); ++p) {
-        source = glm::max(source, component.source(p));
-        albedo = glm::max(albedo, component.mean_albedo(p));
-    }
+SpectrumSum largest_incoming(const FiniteElementComponent& component, float brightest_environment,
+                             const Workers& workers) {
     const SpectrumSum unbounded(std::numeric_limits<double>::infinity());
-    return component.is_glossy() ? unbounded
-                                 : glm::mix(source / (1.0 - albedo), unbounded,
-                                            glm::greaterThanEqual(albedo, SpectrumSum(1.0)));
+    if (component.is_glossy()) return unbounded;
+    struct Largest {
+        SpectrumSum source{0.0}, albedo{0.0};
+    };
+    const Largest largest = fold(
+        workers, component.patch_count(), Largest{SpectrumSum(brightest_environment)},
+        [&](Largest& l, std::size_t i) {
+            const auto p = static_cast<std::uint32_t>(i);
+            l.source = glm::max(l.source, component.source(p));
+            l.albedo = glm::max(l.albedo, component.mean_albedo(p));
+        },
+        [](Largest& l, const Largest& other) {
+            l.source = glm::max(l.source, other.source);
+            l.albedo = glm::max(l.albedo, other.albedo);
+        });
+    return glm::mix(largest.source / (1.0 - largest.albedo), unbounded,
+                    glm::greaterThanEqual(largest.albedo, SpectrumSum(1.0)));
 }
 
 /// As much of a factor as leaves what arrives below the bound.
@@ -157,8 +180,8 @@ SpectrumSum limited(const SpectrumSum& factor, const SpectrumSum& incoming,
 
 void balance_energy(FiniteElementComponent& component, const Clusters& clusters,
                     const ClusterTransfer& transfer, BalanceShape shape,
-                    float brightest_environment) {
-    const std::vector<ClusterState> states = measure_clusters(component, clusters);
+                    float brightest_environment, const Workers& workers) {
+    const ClusterStates states = measure_clusters(component, clusters, workers);
     std::vector<double> fragments(clusters.count);
     for (std::uint32_t j = 0; j < clusters.count; ++j)
         for (std::uint32_t i = 0; i <= clusters.count; ++i)
@@ -177,21 +200,27 @@ void balance_energy(FiniteElementComponent& component, const Clusters& clusters,
                     std::clamp(incoming[i] / now, 1.0 / largest_factor, largest_factor);
         }
     }
-    const SpectrumSum bound = largest_incoming(component, brightest_environment);
-    for (std::uint32_t p = 0; p < component.patch_count(); ++p) {
+    const SpectrumSum bound = largest_incoming(component, brightest_environment, workers);
+    const auto scale_patch = [&](std::uint32_t p) {
         const std::uint32_t i = clusters.of_patch[p];
         if (shape == BalanceShape::kept) {
             component.scale_incoming(p, limited(factor[i], component.incoming(p), bound));
-            continue;
+            return;
         }
-        if (fragments[i] < least_fragments) continue;
+        if (fragments[i] < least_fragments) return;
         // What hardly any light has reached stays dark: it may be sealed off from the rest of its
         // cluster but for a leak, and such a place would forget its start slowly.
         const SpectrumSum own = component.incoming(p);
         const SpectrumSum least = least_share * states[i].incoming / states[i].coverage;
         const SpectrumSum reached(glm::greaterThan(own, least));
         component.set_incoming(p, glm::mix(own * factor[i], target[i], reached));
-    }
+    };
+    constexpr std::size_t grain = 16384;
+    workers.for_ranges(component.patch_count(), grain,
+                       [&](std::size_t begin, std::size_t end, int) {
+                           for (std::size_t p = begin; p < end; ++p)
+                               scale_patch(static_cast<std::uint32_t>(p));
+                       });
 }
 
 }  // namespace transillum

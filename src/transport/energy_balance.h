@@ -25,6 +25,6 @@ enum class BalanceShape {
 /// bound of its radiance. \throws UsageError when nothing absorbs and nothing leaves the scene.
 void balance_energy(FiniteElementComponent& component, const Clusters& clusters,
                     const ClusterTransfer& transfer, BalanceShape shape,
-                    float brightest_environment = 0.0f);
+                    float brightest_environment, const Workers& workers);
 
 }  // namespace transillum

@@ -36,9 +36,11 @@ Exchange::Exchange(std::uint32_t leaf_count, const Clusters& clusters, const Wor
 }
 
 FixedRadiance Exchange::fixed(const Spectrum& radiance) const {
-    const double a_unit = 1.0 / unit_;  // exact: a power of two
+    const double a_unit = 1.0 / unit_;     // exact: a power of two
+    constexpr double to_whole = 0x1.8p52;  // there doubles are whole numbers
     const auto steps = [&](float x) {
-        return std::llrint(std::clamp(x * a_unit, -most_steps_, most_steps_));
+        const double cut_off = std::clamp(x * a_unit, -most_steps_, most_steps_);
+        return static_cast<std::int64_t>(cut_off + to_whole - to_whole);
     };
     return {FixedRadiance::Lanes{steps(radiance.x), steps(radiance.y), steps(radiance.z), 1}};
 }

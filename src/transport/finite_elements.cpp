@@ -84,16 +84,20 @@ void FiniteElementComponent::set_sums(FiniteElementSums sums, FiniteElementSums 
 }
 
 void FiniteElementComponent::restart() {
-    earlier_ = sums_;
+    earlier_.resize(sums_.size());
     earlier_blocks_ = blocks_;
-    for (PatchSums& s : sums_) {
-        if (s.coverage == 0.0) continue;
-        PatchSums start;
-        start.fragments = s.fragments;
-        start.coverage = prior_weight;
-        start.received = s.received / s.coverage * prior_weight;
-        s = start;
-    }
+    workers_.for_ranges(sums_.size(), grain, [&](std::size_t begin, std::size_t end, int) {
+        for (std::size_t p = begin; p < end; ++p) {
+            PatchSums& s = sums_[p];
+            earlier_[p] = s;
+            if (s.coverage == 0.0) continue;
+            PatchSums start;
+            start.fragments = s.fragments;
+            start.coverage = prior_weight;
+            start.received = s.received / s.coverage * prior_weight;
+            s = start;
+        }
+    });
     glossy_.restart(prior_weight);
     escaped_ = entered_ = SpectrumSum(0.0);
     weights_ = 0.0;
@@ -102,15 +106,17 @@ void FiniteElementComponent::restart() {
 
 void FiniteElementComponent::recall() {
     if (earlier_.empty()) return;
-    for (std::size_t p = 0; p < earlier_.size(); ++p) {
-        PatchSums& s = sums_[p];
-        const PatchSums& e = earlier_[p];
-        s.received += e.received;
-        s.coverage += e.coverage;
-        s.received_squared += e.received_squared;
-        s.received_coverage += e.received_coverage;
-        s.coverage_squared += e.coverage_squared;
-    }
+    workers_.for_ranges(earlier_.size(), grain, [&](std::size_t begin, std::size_t end, int) {
+        for (std::size_t p = begin; p < end; ++p) {
+            PatchSums& s = sums_[p];
+            const PatchSums& e = earlier_[p];
+            s.received += e.received;
+            s.coverage += e.coverage;
+            s.received_squared += e.received_squared;
+            s.received_coverage += e.received_coverage;
+            s.coverage_squared += e.coverage_squared;
+        }
+    });
     blocks_ = earlier_blocks_ > 0 ? blocks_ + earlier_blocks_ : 0;
     glossy_.recall();
     forget();
@@ -184,17 +190,16 @@ std::vector<Spectrum> FiniteElementComponent::glossy_values() {
 
 void FiniteElementComponent::send(Exchange& exchange, float brightest_environment,
                                   double most_fragments, float headroom) {
-    workers_.for_ranges(sums_.size(), grain, [&](std::size_t begin, std::size_t end, int) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const SpectrumSum in =
-                feeds_back_ ? ratio(static_cast<std::uint32_t>(i)) : SpectrumSum(0.0);
-            ratio_[i] = Spectrum(in);
-            radiance_[i] = sources_.emission[i] + sources_.direct[i] +
-                           Spectrum(SpectrumSum(sources_.albedo[i]) * in);
-        }
-    });
-    float largest = brightest_environment;
-    for (const Spectrum& r : radiance_) largest = std::max(largest, max_channel(r));
+    const auto send_patch = [&](float& largest, std::size_t i) {
+        const SpectrumSum in =
+            feeds_back_ ? ratio(static_cast<std::uint32_t>(i)) : SpectrumSum(0.0);
+        ratio_[i] = Spectrum(in);
+        radiance_[i] = sources_.emission[i] + sources_.direct[i] +
+                       Spectrum(SpectrumSum(sources_.albedo[i]) * in);
+        largest = std::max(largest, max_channel(radiance_[i]));
+    };
+    float largest = fold(workers_, sums_.size(), brightest_environment, send_patch,
+                         [](float& all, float part) { all = std::max(all, part); });
     if (!glossy_.empty()) largest = std::max(largest, glossy_.update_incoming(ratio_));
     exchange.set_radiance(radiance_, headroom * largest, most_fragments);
 }

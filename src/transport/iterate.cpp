@@ -294,7 +294,7 @@ private:
     void balance() {
         balance_energy(component_, clusters_, between_clusters_,
                        done_ == first_balance ? BalanceShape::flat : BalanceShape::kept,
-                       brightest_so_far_);
+                       brightest_so_far_, workers_);
         if (done_ == first_balance) component_.forget_error();
     }
 

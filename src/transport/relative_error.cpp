@@ -110,41 +110,33 @@ void ErrorEstimate::recall() {
     now_.earlier.clear();
 }
 
-template <class Value>
-double ErrorEstimate::sum_over_patches(Value value) const {
-    constexpr std::size_t range = 1 << 14;  // fixed, so that sums don't depend on the threads
-    const std::size_t patches = 2 * leaf_area_.size();
-    std::vector<double> partial(patches / range + 1);
-    workers_.for_ranges(partial.size(), 1, [&](std::size_t begin, std::size_t end, int) {
-        for (std::size_t r = begin; r < end; ++r)
-            for (std::size_t p = r * range; p < std::min((r + 1) * range, patches); ++p)
-                partial[r] +=
-                    leaf_area_[p % leaf_area_.size()] * value(static_cast<std::uint32_t>(p));
-    });
-    double sum = 0.0;
-    for (const double s : partial) sum += s;
-    return sum;
-}
-
 void ErrorEstimate::compare(const FiniteElementComponent& component) {
     std::vector<float> seen(component.patch_count());
-    for (std::uint32_t p = 0; p < seen.size(); ++p)
+    struct Move {
+        double area = 0.0, square = 0.0;
+    };
+    const auto compare_patch = [&](Move& move, std::size_t i) {
+        const auto p = static_cast<std::uint32_t>(i);
         seen[p] = component.coverage(p) > 0.0 ? static_cast<float>(luminance(component.incoming(p)))
                                               : -1.0f;
-    if (!now_.last.empty()) {
-        const auto both = [&](std::uint32_t p) {
-            return now_.last[p] >= 0.0f && seen[p] >= 0.0f && component.reflects(p);
-        };
-        const double area = sum_over_patches([&](std::uint32_t p) { return both(p) ? 1.0 : 0.0; });
-        const double square = sum_over_patches([&](std::uint32_t p) {
-            return both(p) ? std::pow(double{seen[p]} - double{now_.last[p]}, 2.0) : 0.0;
+        if (now_.last.empty() || now_.last[p] < 0.0f || seen[p] < 0.0f || !component.reflects(p))
+            return;
+        const double area = leaf_area_[p % leaf_area_.size()];
+        move.area += area;
+        move.square += area * std::pow(double{seen[p]} - double{now_.last[p]}, 2.0);
+    };
+    const Move move =
+        fold(workers_, seen.size(), Move{}, compare_patch, [](Move& m, const Move& n) {
+            m.area += n.area;
+            m.square += n.square;
         });
+    if (!now_.last.empty()) {
         if (now_.moves.size() == most_moves || (now_.moves.size() == 1 && now_.jumps)) {
             now_.moves.erase(now_.moves.begin());
             now_.jumps = false;
         }
-        now_.moves.push_back(
-            {difference(now_.parts, now_.last_parts), area > 0.0 ? square / area : 0.0});
+        now_.moves.push_back({difference(now_.parts, now_.last_parts),
+                              move.area > 0.0 ? move.square / move.area : 0.0});
         const bool moved = std::all_of(now_.moves.begin(), now_.moves.end(),
                                        [](const AverageMove& m) { return m.mean_square > 0.0; });
         now_.model = moved ? fit_error_model(now_.moves) : ErrorModel{};
@@ -169,23 +161,27 @@ double ErrorEstimate::variance() const {
 }
 
 ErrorEstimate::Sums ErrorEstimate::measure(const FiniteElementComponent& component) const {
-    const auto sum = [&](auto value) {
-        return sum_over_patches(
-            [&](std::uint32_t p) { return component.reflects(p) ? value(p) : 0.0; });
+    const auto measure_patch = [&](Sums& sums, std::size_t i) {
+        const auto p = static_cast<std::uint32_t>(i);
+        if (!component.reflects(p)) return;
+        const double area = leaf_area_[p % leaf_area_.size()];
+        sums.all += area;
+        if (component.coverage(p) == 0.0) return;
+        sums.seen += area;
+        sums.mean += area * luminance(component.incoming(p));
+        const SpectrumSum variance = component.incoming_variance(p);
+        if (!is_finite(variance)) return;
+        sums.told += area;
+        sums.variance += area * luminance(variance);
     };
-    const auto seen = [&](std::uint32_t p) { return component.coverage(p) > 0.0; };
-    const auto told = [&](std::uint32_t p) {
-        return seen(p) && is_finite(component.incoming_variance(p));
-    };
-    Sums sums;
-    sums.seen = sum([&](std::uint32_t p) { return seen(p) ? 1.0 : 0.0; });
-    sums.told = sum([&](std::uint32_t p) { return told(p) ? 1.0 : 0.0; });
-    sums.all = sum([&](std::uint32_t) { return 1.0; });
-    sums.mean =
-        sum([&](std::uint32_t p) { return seen(p) ? luminance(component.incoming(p)) : 0.0; });
-    sums.variance = sum(
-        [&](std::uint32_t p) { return told(p) ? luminance(component.incoming_variance(p)) : 0.0; });
-    return sums;
+    return fold(workers_, component.patch_count(), Sums{}, measure_patch,
+                [](Sums& s, const Sums& t) {
+                    s.variance += t.variance;
+                    s.mean += t.mean;
+                    s.seen += t.seen;
+                    s.told += t.told;
+                    s.all += t.all;
+                });
 }
 
 double ErrorEstimate::relative_error(const FiniteElementComponent& component) const {

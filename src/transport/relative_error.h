@@ -84,8 +84,6 @@ private:
         double variance = 0.0, mean = 0.0;         // of what is told, of what is seen
         double seen = 0.0, told = 0.0, all = 0.0;  // areas
     };
-    template <class Value>
-    [[nodiscard]] double sum_over_patches(Value value) const;
     [[nodiscard]] Sums measure(const FiniteElementComponent& component) const;
     /// Of the average as it is, mean over the area; NaN where unknown.
     [[nodiscard]] double variance() const;

@@ -163,7 +163,7 @@ private:
 
     std::vector<Row> measure_variant(const Variant& v) {
         std::optional<LeafField> truth;
-        if (v.refinement == 0) truth = leaf_truth(v);
+        if (v.refinement == 0 && arguments_.truth_directions > 0) truth = leaf_truth(v);
         std::vector<Row> rows;
         const std::uint64_t most = std::min(v.most_directions, arguments_.most);
         for (std::uint64_t n = arguments_.least; n <= most; n *= 2) {
@@ -327,7 +327,9 @@ int main(int argc, char** argv) try {
     program.add_option("--truth-samples", a.truth_samples, "paths a pixel of the picture's truth")
         ->check(CLI::Range(2, 1 << 24))
         ->capture_default_str();
-    program.add_option("--truth-directions", a.truth_directions, "of the leaves' truth, twice")
+    program
+        .add_option("--truth-directions", a.truth_directions,
+                    "of the leaves' truth, twice; 0: leaves are not compared")
         ->capture_default_str();
     program.add_option("--level", a.level, "image error for which the summary tells the seconds")
         ->capture_default_str();

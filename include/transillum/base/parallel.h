@@ -2,9 +2,11 @@
 /// cut into ranges, and whatever is summed across ranges is summed exactly or in a fixed order.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <vector>
 
 namespace transillum {
 
@@ -28,5 +30,23 @@ private:
     struct Arena;
     std::unique_ptr<Arena> arena_;
 };
+
+/// What `add(result, i)` makes of all i in [0, n). Ranges of a fixed length each begin with a copy
+/// of `nothing` and are brought together in their order by `join(result, of_range)`: rounded sums
+/// do not depend on the number of threads.
+template <class Result, class Add, class Join>
+[[nodiscard]] Result fold(const Workers& workers, std::size_t n, const Result& nothing, Add add,
+                          Join join) {
+    constexpr std::size_t range = std::size_t{1} << 14;
+    std::vector<Result> partial((n + range - 1) / range, nothing);
+    workers.for_ranges(partial.size(), 1, [&](std::size_t begin, std::size_t end, int) {
+        for (std::size_t r = begin; r < end; ++r)
+            for (std::size_t i = r * range; i < std::min((r + 1) * range, n); ++i)
+                add(partial[r], i);
+    });
+    Result result = nothing;
+    for (const Result& p : partial) join(result, p);
+    return result;
+}
 
 }  // namespace transillum

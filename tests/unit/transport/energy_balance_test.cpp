@@ -41,7 +41,7 @@ protected:
         transfer.at(0, 1) = {SpectrumSum(0.5 * across), across};
         transfer.at(3, 0) = {SpectrumSum(100.0 * escaping), 100.0 * escaping};
         transfer.at(3, 1) = {SpectrumSum(50.0 * escaping), 100.0 * escaping};
-        balance_energy(component, clusters_, transfer, shape);
+        balance_energy(component, clusters_, transfer, shape, 0.0f, workers_);
         return component.incoming(1).x;
     }
 
