@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <numbers>
 
 namespace transillum {
 
@@ -54,8 +55,9 @@ std::uint64_t nonzero_bytes(std::uint64_t eight) {
 DirectShader::DirectShader(const Solution& solution, const RayTracer& rays)
     : solution_(solution), rays_(rays), beyond_(1.01 * diameter_of(solution.surface)) {
     for (const LightSample& s : solution.direct.samples)
-        emitters_.push_back(
-            {s.position, glm::vec3(s.normal), s.emitted * static_cast<float>(s.area)});
+        emitters_.push_back({s.position, glm::vec3(s.normal),
+                             s.emitted * static_cast<float>(s.area),
+                             static_cast<float>(s.area * std::numbers::inv_pi)});
 }
 
 bool DirectShader::sees(const SurfacePoint& p, const LightSample& light) const {
@@ -93,7 +95,9 @@ void DirectShader::use_sample(const SurfacePoint& p, std::size_t sample, float s
     const float cosine = -glm::dot(emitter.normal, way);
     if (!(in.z > 0.0f && cosine > 0.0f)) return;
     const float squared = 1.0f / glm::dot(way, way);
-    use(std::sqrt(squared) * in, emitter.intensity * (share * cosine * in.z * squared * squared),
+    // Seen from near by, its piece is a disc, not a point.
+    const float from_disc = 1.0f / (glm::dot(way, way) + emitter.squared_radius);
+    use(std::sqrt(squared) * in, emitter.intensity * (share * cosine * in.z * squared * from_disc),
         true);
 }
 

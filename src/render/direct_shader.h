@@ -36,7 +36,8 @@ private:
     struct Emitter {
         glm::dvec3 position;
         glm::vec3 normal;
-        Spectrum intensity;  ///< along the normal
+        Spectrum intensity;    ///< along the normal
+        float squared_radius;  ///< of a disc as large as the piece it stands for
     };
 
     [[nodiscard]] bool sees(const SurfacePoint& p, const LightSample& light) const;
