@@ -184,9 +184,9 @@ RepairedScene make_sound(const Scene& scene, RepairOptions options, const Worker
     return repaired;
 }
 
-Layout lay_out_solution(const RepairedScene& sound, const BakeOptions& options, const Baker& baker,
+Layout lay_out_solution(RepairedScene sound, const BakeOptions& options, const Baker& baker,
                         StopWatch& watch, Monitor& monitor) {
-    const Scene& scene = sound.scene;
+    Scene& scene = sound.scene;
     require_room_for_quarters(options);
     Layout layout;
     Solution& s = layout.solution;
@@ -199,6 +199,7 @@ Layout lay_out_solution(const RepairedScene& sound, const BakeOptions& options, 
     grid.largest_move = std::max(grid.largest_move, sound.report.snapped_by);
     layout.decisions = decisions_about(sound.report, options.repair.level, grid);
     require_light(scene, s.surface.triangles);
+    scene = {};  // the surface has all that is wanted of it
     s.patches = subdivide_uniformly(s.surface, options.subdivision);
     s.scene_hash = hash_scene(s.surface, s.lighting);
     watch.lap("geometry");
@@ -218,9 +219,9 @@ Solution bake(const Scene& scene, const BakeOptions& options, const Workers& wor
               Monitor& monitor, RunRecord* run) {
     StopWatch watch(run);
     const Baker baker(options, workers, monitor, watch);
-    const RepairedScene sound = make_sound(scene, options.repair, workers, monitor);
+    RepairedScene sound = make_sound(scene, options.repair, workers, monitor);
     watch.lap("repair");
-    Layout layout = lay_out_solution(sound, options, baker, watch, monitor);
+    Layout layout = lay_out_solution(std::move(sound), options, baker, watch, monitor);
     Solution& s = layout.solution;
     // As many again as the phases took: what they inherited from larger patches must fade.
     const std::uint64_t least = 2 * layout.refined.directions;

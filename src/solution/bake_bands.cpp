@@ -121,7 +121,7 @@ SpectralSolution bake_bands(const Scene& scene, const SpectralOptions& spectral,
     sound.scene.materials = rgb.materials;
     sound.scene.textures = rgb.textures;
     sound.scene.lighting = rgb.lighting;
-    Layout layout = lay_out_solution(sound, options, baker, watch, monitor);
+    Layout layout = lay_out_solution(std::move(sound), options, baker, watch, monitor);
     baker.band_groups = static_cast<std::uint64_t>(bands.groups());
     Solution& s = layout.solution;
     std::vector<Decision>& decisions = layout.decisions;

@@ -39,12 +39,12 @@ void add_new(std::vector<Decision>& decisions, const std::vector<Decision>& of_p
 EmitterSolution bake_emitters(const Scene& scene, const BakeOptions& options,
                               const Workers& workers, Monitor& monitor, RunRecord* run) {
     StopWatch watch(run);
-    const RepairedScene sound = make_sound(scene, options.repair, workers, monitor);
+    RepairedScene sound = make_sound(scene, options.repair, workers, monitor);
     watch.lap("repair");
     BakeOptions of_part = options;
     of_part.iteration.keep_sums = false;  // nothing goes on from a part's
     Baker baker(of_part, workers, monitor, watch);
-    Layout layout = lay_out_solution(sound, of_part, baker, watch, monitor);
+    Layout layout = lay_out_solution(std::move(sound), of_part, baker, watch, monitor);
     Solution& s = layout.solution;
     const std::vector<Emitter> emitters = emitters_of(s);
     of_part.iteration.seconds /= static_cast<double>(emitters.size());

@@ -68,7 +68,7 @@ struct Layout {
     Refined refined;
     std::vector<Decision> decisions;
 };
-[[nodiscard]] Layout lay_out_solution(const RepairedScene& sound, const BakeOptions& options,
+[[nodiscard]] Layout lay_out_solution(RepairedScene sound, const BakeOptions& options,
                                       const Baker& baker, StopWatch& watch, Monitor& monitor);
 
 }  // namespace transillum

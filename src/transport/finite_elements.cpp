@@ -42,8 +42,8 @@ FiniteElementComponent::FiniteElementComponent(const SurfaceMesh& mesh,
       workers_(workers),
       glossy_(mesh, patches, sources, workers),
       sums_(sources.albedo.size()),
-      ratio_(sources.albedo.size()),
-      radiance_(sources.albedo.size()) {}
+      radiance_(sources.albedo.size()),
+      ratio_(glossy_.empty() ? 0 : sources.albedo.size()) {}
 
 void FiniteElementComponent::average_in(Exchange& exchange, std::uint64_t directions, double weight,
                                         ResidualEffect* effect) {
@@ -183,22 +183,24 @@ SpectrumSum FiniteElementComponent::mean_albedo(std::uint32_t patch) const {
                                               : sources_.albedo[patch]);
 }
 
-std::vector<Spectrum> FiniteElementComponent::glossy_values() {
-    for (std::uint32_t p = 0; p < patch_count(); ++p) ratio_[p] = Spectrum(ratio(p));
-    return glossy_.values(ratio_);
+std::vector<Spectrum> FiniteElementComponent::glossy_values() const {
+    if (glossy_.empty()) return {};
+    std::vector<Spectrum> ratios(patch_count());
+    for (std::uint32_t p = 0; p < patch_count(); ++p) ratios[p] = Spectrum(ratio(p));
+    return glossy_.values(ratios);
 }
 
 void FiniteElementComponent::send(Exchange& exchange, float brightest_environment,
                                   double most_fragments, float headroom) {
-    const auto send_patch = [&](float& largest, std::size_t i) {
+    const auto reflect_patch = [&](float& largest, std::size_t i) {
         const SpectrumSum in =
             feeds_back_ ? ratio(static_cast<std::uint32_t>(i)) : SpectrumSum(0.0);
-        ratio_[i] = Spectrum(in);
+        if (!ratio_.empty()) ratio_[i] = Spectrum(in);
         radiance_[i] = sources_.emission[i] + sources_.direct[i] +
                        Spectrum(SpectrumSum(sources_.albedo[i]) * in);
         largest = std::max(largest, max_channel(radiance_[i]));
     };
-    float largest = fold(workers_, sums_.size(), brightest_environment, send_patch,
+    float largest = fold(workers_, sums_.size(), brightest_environment, reflect_patch,
                          [](float& all, float part) { all = std::max(all, part); });
     if (!glossy_.empty()) largest = std::max(largest, glossy_.update_incoming(ratio_));
     exchange.set_radiance(radiance_, headroom * largest, most_fragments);

@@ -118,7 +118,7 @@ public:
     [[nodiscard]] SpectrumSum mean_albedo(std::uint32_t patch) const;
     [[nodiscard]] bool is_glossy() const { return !glossy_.empty(); }
     /// Incoming radiance of glossy sides by bin, as glossy_sides.h lays it out.
-    [[nodiscard]] std::vector<Spectrum> glossy_values();
+    [[nodiscard]] std::vector<Spectrum> glossy_values() const;
 
     /// Radiance times fragments that left the scene, mean over the directions.
     [[nodiscard]] SpectrumSum escaped() const {
@@ -142,7 +142,8 @@ private:
     const Workers& workers_;
     GlossyElements glossy_;
     std::vector<PatchSums> sums_;
-    std::vector<Spectrum> ratio_, radiance_;  ///< when last sent
+    std::vector<Spectrum> radiance_;  ///< when last sent
+    std::vector<Spectrum> ratio_;     ///< the same; only where there are glossy sides
     bool feeds_back_ = true;
     SpectrumSum escaped_{0.0}, entered_{0.0};
     double weights_ = 0.0;

@@ -165,8 +165,7 @@ private:
         std::optional<LeafField> truth;
         if (v.refinement == 0 && arguments_.truth_directions > 0) truth = leaf_truth(v);
         std::vector<Row> rows;
-        const std::uint64_t most = std::min(v.most_directions, arguments_.most);
-        for (std::uint64_t n = arguments_.least; n <= most; n *= 2) {
+        for (std::uint64_t n = arguments_.least; n <= arguments_.most; n *= 2) {
             Row row;
             row.count = n;
             std::vector<Image> images;

@@ -20,7 +20,6 @@ struct Variant {
     MonteCarlo carried;
     MonteCarloShading shown;
     int refinement;
-    std::uint64_t most_directions;
 };
 
 [[nodiscard]] const std::vector<Variant>& all_variants();
