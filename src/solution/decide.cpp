@@ -28,8 +28,9 @@ constexpr const char* of_transport[] = {"Monte-Carlo component", "left out of th
 void decide_monte_carlo(const TransportResult& t, MonteCarlo choice, Averaging averaging,
                         std::vector<Decision>& decisions) {
     if (t.carried == 0) {
-        decisions.push_back({"no Monte-Carlo component in the transport",
-                             choice == MonteCarlo::off ? "asked for" : "too few directions"});
+        decisions.push_back(
+            {"no Monte-Carlo component in the transport",
+             choice == MonteCarlo::off ? "off, as asked for or by default" : "too few directions"});
         return;
     }
     const char* const how = t.monte_carlo == MonteCarlo::subpatch
