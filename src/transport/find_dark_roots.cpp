@@ -12,7 +12,7 @@ namespace {
 constexpr double least_surface = 0.05;
 /// Directions without news after which what was not reached is dark, and most in all. However many
 /// the iteration takes: one that goes on must come to the same.
-constexpr std::uint64_t calm_directions = 32, most_directions = 64;
+constexpr std::uint64_t calm_directions = 64, most_directions = 128;
 /// Share of an iteration's time that the search may take.
 constexpr double share_of_time = 0.125;
 

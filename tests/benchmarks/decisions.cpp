@@ -4,7 +4,8 @@
 //   bench_decisions > decisions.csv
 //
 // A row is a decision: medians over rounds, in which both bakes take turns, each in a process of
-// its own. seconds: of the whole bake; peak_mb: of its process [10^6 bytes]; error: as each
+// its own. seconds: of the whole bake; cpu: of all its threads, which others on the machine disturb
+// less, and their ratio; peak_mb: of its process [10^6 bytes]; error: as each
 // estimates it of itself; bias, rms: how far the forced bake is from the other, relative, in the
 // irradiance of all fronts (rms: empty where their patches differ).
 // "unchanged": a bake whose solution is there already, against the bake and its saving.
@@ -45,15 +46,19 @@ struct Arguments {
 
 struct Measured {
     double seconds = std::numeric_limits<double>::quiet_NaN();
-    double peak_megabytes = seconds;
+    double cpu_seconds = seconds, peak_megabytes = seconds;
     std::uint64_t told = 0;
     FrontField field;
 };
 
-double peak_megabytes() {
+/// Of this process so far.
+void add_usage(Measured& m) {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
-    return static_cast<double>(usage.ru_maxrss) * 1024.0 * 1e-6;
+    m.peak_megabytes = static_cast<double>(usage.ru_maxrss) * 1024.0 * 1e-6;
+    m.cpu_seconds = 0.0;
+    for (const timeval& t : {usage.ru_utime, usage.ru_stime})
+        m.cpu_seconds += static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
 }
 
 /// A pipe's end, for plain numbers.
@@ -99,6 +104,7 @@ Measured measure_apart(const std::function<Measured()>& measure) {
             const Measured m = measure();
             Stream out(ends[1], "w");
             out.put(m.seconds);
+            out.put(m.cpu_seconds);
             out.put(m.peak_megabytes);
             out.put(m.told);
             out.put(m.field.relative_error);
@@ -113,7 +119,8 @@ Measured measure_apart(const std::function<Measured()>& measure) {
     Measured m;
     {
         Stream in(ends[0], "r");
-        const bool is_whole = in.get(m.seconds) && in.get(m.peak_megabytes) && in.get(m.told) &&
+        const bool is_whole = in.get(m.seconds) && in.get(m.cpu_seconds) &&
+                              in.get(m.peak_megabytes) && in.get(m.told) &&
                               in.get(m.field.relative_error) && in.get(m.field.values) &&
                               in.get(m.field.areas);
         if (!is_whole) std::fputs("a bake failed\n", stderr);
@@ -129,7 +136,7 @@ Measured baked(const Scene& scene, const BakeOptions& options, const char* told,
     const Clock clock;
     const Solution s = bake(scene, options, Workers(threads), silent);
     m.seconds = clock.seconds();
-    m.peak_megabytes = peak_megabytes();
+    add_usage(m);
     m.told = tells(s, told) ? 1 : 0;
     m.field = fronts_of(s);
     return m;
@@ -151,10 +158,11 @@ void print_row(const std::string& name, int rounds, const Way& decide, const Way
         forced.push_back(measure_apart(force));
     }
     const FrontField &a = decided[0].field, &b = forced[0].field;
-    const double seconds = median(decided, &Measured::seconds);
-    const double seconds_forced = median(forced, &Measured::seconds);
-    fmt::print("{},{},{:.4f},{:.4f},{:.3f},{:.1f},{:.1f},{:.2e},{:.2e},{:.2e},{}\n", name,
-               decided[0].told, seconds, seconds_forced, seconds_forced / seconds,
+    const double cpu = median(decided, &Measured::cpu_seconds);
+    const double cpu_forced = median(forced, &Measured::cpu_seconds);
+    fmt::print("{},{},{:.4f},{:.4f},{:.4f},{:.4f},{:.3f},{:.1f},{:.1f},{:.2e},{:.2e},{:.2e},{}\n",
+               name, decided[0].told, median(decided, &Measured::seconds),
+               median(forced, &Measured::seconds), cpu, cpu_forced, cpu_forced / cpu,
                median(decided, &Measured::peak_megabytes),
                median(forced, &Measured::peak_megabytes), a.relative_error, b.relative_error,
                b.mean() / a.mean() - 1.0,
@@ -177,7 +185,7 @@ void print_unchanged(const DecisionCase& c, const Arguments& a) {
         const Solution s = bake(c.scene, c.options, Workers(a.threads), silent, &run);
         save_solution(s, run, path);
         m.seconds = clock.seconds();
-        m.peak_megabytes = peak_megabytes();
+        add_usage(m);
         m.field = fronts_of(s);
         return m;
     };
@@ -187,7 +195,7 @@ void print_unchanged(const DecisionCase& c, const Arguments& a) {
         const Clock clock;
         const auto s = find_baked(path, hash_input(c.scene, c.options));
         m.seconds = clock.seconds();
-        m.peak_megabytes = peak_megabytes();
+        add_usage(m);
         m.told = s ? 1 : 0;
         if (s) m.field = fronts_of(*s);
         return m;
@@ -198,7 +206,8 @@ void print_unchanged(const DecisionCase& c, const Arguments& a) {
 
 int run(const Arguments& a) {
     fmt::print(
-        "decision,told,seconds,seconds_forced,ratio,peak_mb,peak_mb_forced,error,error_forced,"
+        "decision,told,seconds,seconds_forced,cpu,cpu_forced,ratio,peak_mb,peak_mb_forced,error,"
+        "error_forced,"
         "bias,rms\n");
     const auto is_asked_for = [&](const std::string& name) {
         return a.only.empty() || std::ranges::find(a.only, name) != a.only.end();

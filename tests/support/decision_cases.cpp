@@ -63,10 +63,10 @@ public:
         add(
             "even light", "refined", even_room(),
             [](DecisionCase& c) {
-                c.options.refinement.phases = c.forced_options.refinement.phases = 1;
-                c.options.iteration.iterations = c.forced_options.iteration.iterations = 256;
-                c.forced_options.refinement.tolerance = 1e-6;
-                c.forced_options.refinement.direct = false;
+                c.options.refinement.phases = 1;
+                c.options.iteration.iterations = c.forced_options.iteration.iterations =
+                    std::max<std::uint64_t>(256, c.options.iteration.iterations);
+                c.forced_options.subdivision.leaf_target *= 4;
                 c.other_patches = true;
             },
             1e-5);

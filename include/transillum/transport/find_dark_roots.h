@@ -25,11 +25,11 @@ struct DarkRoots {
     [[nodiscard]] bool empty() const { return count == 0; }
 };
 
-/// None where they are less than 5 % of the surface, or where a light was not met within 64
-/// directions: too little is known then. Of what is dark, no fragment met light along 32
-/// directions, both ways. Does not depend on the number of workers.
-/// \param options the iteration's; of its time, if that is limited, the search takes an eighth at
-/// most
+/// None where they are less than 5 % of the surface, or where a light was not met within 128
+/// directions: too little is known then. Of what is dark, no fragment met light along 64
+/// directions, both ways: what comes through a crack that can be looked through from fewer is
+/// missed. Does not depend on the number of workers. \param options the iteration's; of its time,
+/// if that is limited, the search takes an eighth at most
 [[nodiscard]] DarkRoots find_dark_roots(const SurfaceMesh& mesh, const PatchHierarchy& patches,
                                         const PatchSources& sources,
                                         const IterationOptions& options, const Workers& workers,
