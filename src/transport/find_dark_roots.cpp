@@ -13,6 +13,8 @@ constexpr double least_surface = 0.05;
 /// Directions without news after which what was not reached is dark, and most in all. However many
 /// the iteration takes: one that goes on must come to the same.
 constexpr std::uint64_t calm_directions = 64, most_directions = 128;
+/// After so many, most of what could be left out has been met.
+constexpr std::uint64_t first_directions = 8;
 /// Share of an iteration's time that the search may take.
 constexpr double share_of_time = 0.125;
 
@@ -65,11 +67,11 @@ public:
             if (is_source_[side] && (state_[side] & met) == 0) return false;
         return true;
     }
-    /// Share of the surface that is not reached, met or not.
-    [[nodiscard]] double unreached_surface() const {
+    /// Share of the surface that is not reached. \param met_alone of what has been met at all
+    [[nodiscard]] double unreached_surface(bool met_alone) const {
         double unreached = 0.0;
         for (std::uint32_t r = 0; r < mesh_.triangles.size(); ++r)
-            if (!is_reached(r)) unreached += area_of(mesh_, r);
+            if (!is_reached(r) && (is_met(r) || !met_alone)) unreached += area_of(mesh_, r);
         return unreached / area_;
     }
     [[nodiscard]] DarkRoots result(std::uint64_t directions) const {
@@ -140,7 +142,7 @@ DarkRoots find_dark_roots(const SurfaceMesh& mesh, const PatchHierarchy& patches
         const bool news = search.follow(
             buffer, sample_bundle(static_cast<std::uint32_t>(i), options.seed), workers);
         calm = news ? 0 : calm + 1;
-        if (search.unreached_surface() < least_surface) return {};
+        if (search.unreached_surface(i + 1 >= first_directions) < least_surface) return {};
         if (calm >= calm_directions && search.all_sources_are_met()) return search.result(i + 1);
     }
     return {};

@@ -39,7 +39,7 @@ using namespace transillum::testing_support;
 
 struct Arguments {
     std::vector<std::string> only;
-    DecisionSize size{20'000, 512, 3, 24, 2000};
+    DecisionSize size{20'000, 512, 3, 24, 1000};
     int rounds = 3;
     int threads = 2;
 };
