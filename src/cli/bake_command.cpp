@@ -178,6 +178,10 @@ void add_options(CLI::App& command, BakeArguments& a) {
                "what patches can't hold is carried from bundle to bundle on their quarters, or in "
                "the whole buffer; auto: where it changes more than the error to be expected")
         ->group(method);
+    add_choice(command, "--dark-rooms", a.bake.dark_rooms,
+               {{"auto", DarkRooms::automatic}, {"keep", DarkRooms::keep}},
+               "rooms that no light reaches; auto: left out of the transport")
+        ->group(method);
     add_choice(
         command, "--averaging", iteration.averaging,
         {{"balanced", Averaging::balanced}, {"paper", Averaging::paper}, {"none", Averaging::none}},

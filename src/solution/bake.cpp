@@ -56,6 +56,7 @@ std::vector<std::pair<std::string, std::string>> settings_of(const BakeOptions& 
             {"refine-tolerance", fmt::format("{}", o.refinement.tolerance)},
             {"max-leaves", fmt::format("{}", o.refinement.max_leaves)},
             {"refine-for", o.refinement.direct ? "stored" : "traced"},
+            {"dark-rooms", o.dark_rooms == DarkRooms::automatic ? "auto" : "keep"},
             {"averaging", averagings[static_cast<int>(o.iteration.averaging)]},
             {"brdf-bins", o.bins.level < 0 ? "auto" : fmt::format("{}", bin_count(o.bins.level))},
             {"seed", fmt::format("{}", o.seed)}};

@@ -32,6 +32,10 @@ void put_setting(Solution& s, const std::string& name, const std::string& value)
         if (known == name) of_known = value;
 }
 
+bool has_setting(const Solution& s, const std::string& name, const std::string& value) {
+    return std::ranges::find(s.settings, std::pair(name, value)) != s.settings.end();
+}
+
 /// As one bake would have been told.
 void record_settings(Solution& s, const IterationOptions& iteration) {
     put_setting(s, "iterations", fmt::format("{}", iteration.iterations));
@@ -54,6 +58,7 @@ void resume(Solution& s, const ResumeOptions& options, const Workers& workers, M
     bake.iteration.seconds = options.seconds;
     bake.iteration.keep_sums = options.keep_sums;
     bake.seed = s.seed;
+    if (has_setting(s, "dark-rooms", "keep")) bake.dark_rooms = DarkRooms::keep;
     bake.memory = options.memory;
 
     Baker baker(bake, workers, monitor, watch);

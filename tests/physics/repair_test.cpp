@@ -50,6 +50,7 @@ Solution bake_room(const Room& room, RepairLevel level, Averaging averaging,
     options.iteration.iterations = directions;
     options.iteration.monte_carlo = MonteCarlo::off;
     options.iteration.averaging = averaging;
+    options.dark_rooms = DarkRooms::keep;  // that they are is the question
     Monitor silent;
     return bake(room.builder.scene, options, Workers(2), silent);
 }

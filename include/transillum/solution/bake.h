@@ -30,6 +30,12 @@ struct RefinementOptions {
     std::function<void(const Solution& phase, int number)> keep_phase;
 };
 
+/// Rooms that no light reaches.
+enum class DarkRooms {
+    automatic,  ///< left out of the transport, where they are much of the surface
+    keep
+};
+
 struct BakeOptions {
     RepairOptions repair;  ///< its rounding is set to that of patches, Rounding::dyadic
     SurfaceOptions surface;
@@ -37,6 +43,7 @@ struct BakeOptions {
     LightSampleOptions light;
     BinOptions bins;
     RefinementOptions refinement;
+    DarkRooms dark_rooms = DarkRooms::automatic;
     IterationOptions iteration;  ///< its pixel size and seed are set from the fields below
     int hemicube_resolution = 512;
     int resolution = 0;  ///< pixels across the transillumination buffer; 0: three a leaf's edge

@@ -49,6 +49,19 @@ Scene under_a_sky() {
     return b.scene;
 }
 
+/// Glossy rooms, one of them dark.
+Scene beside_a_dark_room() {
+    SceneBuilder b;
+    Material& m = b.scene.materials[0];
+    m.specular = Spectrum(0.3f);
+    m.lobe = Lobe::max_phong;
+    m.shininess = 10.0f;
+    b.box({0, 0, 0}, {1, 1, 1}, Facing::inwards);
+    b.box({1.5, 0, 0}, {3, 1, 1}, Facing::inwards);
+    b.scene.polygons[0].material = b.material(Spectrum(0.5f), Spectrum(1.0f));
+    return b.scene;
+}
+
 BakeOptions small_bake(std::uint64_t directions) {
     BakeOptions options;
     options.subdivision.leaf_target = 150;
@@ -100,7 +113,7 @@ protected:
 };
 
 TEST_F(Resume, TwoPartsAreAWhole) {
-    for (Scene (*const scene)() : {divided_room, under_a_sky}) {
+    for (Scene (*const scene)() : {divided_room, under_a_sky, beside_a_dark_room}) {
         const Solution whole = bake_to(scene(), small_bake(70));
         for (const std::uint64_t first : {16, 20, 33, 64}) {
             SCOPED_TRACE(first);
