@@ -129,20 +129,6 @@ std::vector<double> solve_channel(const std::vector<ClusterState>& states,
     return incoming;
 }
 
-/// No radiance that arrives exceeds the largest source over 1 - albedo; of lobes, whose albedo
-/// depends on the angle, nothing is said.
-SpectrumSum largest_incoming(const FiniteElementComponent& component, float brightest_environment) {
-    SpectrumSum source(brightest_environment), albedo(0.0);
-    for (std::uint32_t p = 0; p < component.patch_count(); ++p) {
-        source = glm::max(source, component.source(p));
-        albedo = glm::max(albedo, component.mean_albedo(p));
-    }
-    const SpectrumSum unbounded(std::numeric_limits<double>::infinity());
-    return component.is_glossy() ? unbounded
-                                 : glm::mix(source / (1.0 - albedo), unbounded,
-                                            glm::greaterThanEqual(albedo, SpectrumSum(1.0)));
-}
-
 /// As much of a factor as leaves what arrives below the bound.
 SpectrumSum limited(const SpectrumSum& factor, const SpectrumSum& incoming,
                     const SpectrumSum& bound) {
@@ -154,6 +140,18 @@ SpectrumSum limited(const SpectrumSum& factor, const SpectrumSum& incoming,
 }
 
 }  // namespace
+
+SpectrumSum largest_incoming(const FiniteElementComponent& component, float brightest_environment) {
+    SpectrumSum source(brightest_environment), albedo(0.0);
+    for (std::uint32_t p = 0; p < component.patch_count(); ++p) {
+        source = glm::max(source, component.source(p));
+        albedo = glm::max(albedo, component.mean_albedo(p));
+    }
+    const SpectrumSum unbounded(std::numeric_limits<double>::infinity());
+    return component.is_glossy() ? unbounded
+                                 : glm::mix(source / (1.0 - albedo), unbounded,
+                                            glm::greaterThanEqual(albedo, SpectrumSum(1.0)));
+}
 
 void balance_energy(FiniteElementComponent& component, const Clusters& clusters,
                     const ClusterTransfer& transfer, BalanceShape shape,

@@ -13,6 +13,7 @@
 #include <transillum/transport/iterate.h>
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -93,6 +94,8 @@ public:
     void recall();
     /// Lets go of what the last restart set aside.
     void forget();
+    /// No estimate of what arrives exceeds this from now on, whatever was summed up.
+    void limit_incoming(const SpectrumSum& most) { most_incoming_ = most; }
     /// Says that the spread of the blocks so far tells nothing of the error.
     void forget_error() { blocks_ = 0; }
 
@@ -143,6 +146,7 @@ private:
     GlossyElements glossy_;
     std::vector<PatchSums> sums_;
     std::vector<Spectrum> ratio_, radiance_;  ///< when last sent
+    SpectrumSum most_incoming_{std::numeric_limits<double>::infinity()};
     bool feeds_back_ = true;
     SpectrumSum escaped_{0.0}, entered_{0.0};
     double weights_ = 0.0;

@@ -43,7 +43,9 @@ RunningAverage::RunningAverage(const SurfaceMesh& mesh, const PatchHierarchy& pa
       earlier_between_clusters_(clusters_.count),
       elements_(mesh, patches, sources, workers),
       leaf_area_(areas_of_leaves(mesh, patches)),
-      error_(leaf_area_, workers) {}
+      error_(leaf_area_, workers) {
+    limit();
+}
 
 void RunningAverage::go_on_from(const IterationSums& sums, const PatchHierarchy& patches,
                                 const GlossySides& glossy, double pixel_size, bool are_same) {
@@ -56,6 +58,7 @@ void RunningAverage::go_on_from(const IterationSums& sums, const PatchHierarchy&
     restarted_at_ = sums.restarted_at;
     error_.set_history(sums.error);
     brightest_ = sums.brightest_environment;
+    limit();
     if (!are_same) return error_.begin_anew(elements_);
     relative_error_ = sums.relative_error;
     begins_anew_ = sums.restarts;
@@ -80,6 +83,12 @@ void RunningAverage::keep(IterationSums& sums) const {
 double RunningAverage::weight_after(std::uint64_t directions) const {
     return averaging_ == Averaging::balanced ? std::sqrt(static_cast<double>(done_ + directions))
                                              : 1.0;
+}
+
+void RunningAverage::meet_environment(float brightest) {
+    if (brightest <= brightest_) return;
+    brightest_ = brightest;
+    limit();
 }
 
 void RunningAverage::begin_block() {
@@ -124,6 +133,12 @@ void RunningAverage::balance() {
     balance_energy(elements_, clusters_, between_clusters_,
                    done_ == first_balance ? BalanceShape::flat : BalanceShape::kept, brightest_);
     if (done_ == first_balance) elements_.forget_error();
+}
+
+/// Of averages that are nothing but samples, a limit would change the mean.
+void RunningAverage::limit() {
+    if (averaging_ == Averaging::balanced)
+        elements_.limit_incoming(largest_incoming(elements_, brightest_));
 }
 
 void RunningAverage::recall() {

@@ -11,7 +11,6 @@
 
 #include <transillum/transport/iterate.h>
 
-#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -44,7 +43,7 @@ public:
     /// Of each direction of a block of so many.
     [[nodiscard]] double weight_after(std::uint64_t directions) const;
     /// Notes a bound of what the environment sends along the next block.
-    void meet_environment(float brightest) { brightest_ = std::max(brightest_, brightest); }
+    void meet_environment(float brightest);
 
     /// Begins anew where that is due: before a block.
     void begin_block();
@@ -66,6 +65,7 @@ public:
 private:
     [[nodiscard]] bool balances_at(std::uint64_t done) const;
     void balance();
+    void limit();
     void recall();
     void forget();
 
