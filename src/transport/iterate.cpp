@@ -99,6 +99,7 @@ private:
     void send(std::uint64_t block) {
         const float brightest = brightest_environment(block);
         average_.meet_environment(brightest);
+        exchange_.set_draw(average_.directions());
         average_.elements().send(exchange_, brightest, most_fragments(block), transfer_.headroom());
     }
 
