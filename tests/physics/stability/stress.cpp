@@ -27,8 +27,8 @@ constexpr const char* help =
     "1 where energy, a bound or a closed form isn't met. About a minute on two cores.\n"
     "\n"
     "--full        four times the directions, all random rooms, and conditions that take long:\n"
-    "              10^6 directions, 10^6 triangles in a pixel, the deepest level; about a quarter\n"
-    "              of an hour\n"
+    "              10^6 directions, 10^6 triangles in a pixel, the deepest level; about half\n"
+    "              an hour\n"
     "--only TEXT   those with TEXT in their name\n"
     "--csv FILE    the table as CSV, too\n";
 
