@@ -24,12 +24,17 @@ public:
         const glm::vec3 difference = a - b;
         const float below_one = 0.5f * glm::dot(difference, difference);
         if (!(below_one < 1.0f)) return 0.0f;
+        // log(1 - x) <= -x: less than floats hold. Most of a hemisphere is that far from a sharp
+        // lobe, and what underflows takes long.
+        if (n_ * below_one > underflow) return 0.0f;
         return whole_ > 0 ? whole_power(1.0f - below_one) : std::exp(n_ * std::log1p(-below_one));
     }
 
 private:
     /// Rounding grows with n, so larger exponents are better taken by logarithms.
     static constexpr float largest_whole = 64.0f;
+    /// exp of less than minus that is 0.
+    static constexpr float underflow = 104.0f;
 
     [[nodiscard]] float whole_power(float x) const {
         float power = 1.0f;

@@ -142,8 +142,18 @@ std::vector<double> solve_channel(const ClusterStates& states, const ClusterTran
     return incoming;
 }
 
-/// No radiance that arrives exceeds the largest source over 1 - albedo; of lobes, whose albedo
-/// depends on the angle, nothing is said.
+/// As much of a factor as leaves what arrives below the bound.
+SpectrumSum limited(const SpectrumSum& factor, const SpectrumSum& incoming,
+                    const SpectrumSum& bound) {
+    SpectrumSum f = factor;
+    for (int c = 0; c < channel_count; ++c)
+        if (f[c] > 1.0 && f[c] * incoming[c] > bound[c])
+            f[c] = std::max(1.0, bound[c] / incoming[c]);
+    return f;
+}
+
+}  // namespace
+
 SpectrumSum largest_incoming(const FiniteElementComponent& component, float brightest_environment,
                              const Workers& workers) {
     const SpectrumSum unbounded(std::numeric_limits<double>::infinity());
@@ -165,18 +175,6 @@ SpectrumSum largest_incoming(const FiniteElementComponent& component, float brig
     return glm::mix(largest.source / (1.0 - largest.albedo), unbounded,
                     glm::greaterThanEqual(largest.albedo, SpectrumSum(1.0)));
 }
-
-/// As much of a factor as leaves what arrives below the bound.
-SpectrumSum limited(const SpectrumSum& factor, const SpectrumSum& incoming,
-                    const SpectrumSum& bound) {
-    SpectrumSum f = factor;
-    for (int c = 0; c < channel_count; ++c)
-        if (f[c] > 1.0 && f[c] * incoming[c] > bound[c])
-            f[c] = std::max(1.0, bound[c] / incoming[c]);
-    return f;
-}
-
-}  // namespace
 
 void balance_energy(FiniteElementComponent& component, const Clusters& clusters,
                     const ClusterTransfer& transfer, BalanceShape shape,

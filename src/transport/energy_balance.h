@@ -18,6 +18,12 @@ enum class BalanceShape {
     kept   ///< patches keep their shares; transfers are weighted with the radiance that was carried
 };
 
+/// No radiance that arrives exceeds the largest source over 1 - albedo; of lobes, whose albedo
+/// depends on the angle, nothing is said: infinite. \param brightest_environment bound of its
+/// radiance
+[[nodiscard]] SpectrumSum largest_incoming(const FiniteElementComponent& component,
+                                           float brightest_environment, const Workers& workers);
+
 /// Scales the incoming radiance of every patch to the balance of its cluster. Everything is
 /// measured in fragments, as the transfers are: a uniform radiance in a closed scene then is in
 /// balance to the last digit, for any clusters. No patch is raised above what any may receive.

@@ -3,6 +3,8 @@
 #include "transport/exchange_lists.h"
 #include "transport/monte_carlo_component.h"
 
+#include <transillum/base/sampling.h>
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -15,6 +17,12 @@ namespace {
 /// Fragments between a fetch and its use: long enough for main memory, short enough to stay in the
 /// cache.
 constexpr std::ptrdiff_t fetch_distance = 24;
+
+/// Uniform in [0, 1).
+double draw_of(std::uint64_t draw, std::uint64_t patch) {
+    return static_cast<double>(hash_bits(hash_bits(draw) ^ patch) >> 11) * 0x1p-53;
+}
+
 }  // namespace
 
 Exchange::Exchange(std::uint32_t leaf_count, const Clusters& clusters, const Workers& workers)
@@ -45,6 +53,15 @@ FixedRadiance Exchange::fixed(const Spectrum& radiance) const {
     return {FixedRadiance::Lanes{steps(radiance.x), steps(radiance.y), steps(radiance.z), 1}};
 }
 
+FixedRadiance Exchange::rounded_at_random(const Spectrum& radiance, double draw) const {
+    const double a_unit = 1.0 / unit_;
+    const auto steps = [&](float x) {
+        return static_cast<std::int64_t>(
+            std::min(std::floor(double{x} * a_unit + draw), most_steps_));
+    };
+    return {FixedRadiance::Lanes{steps(radiance.x), steps(radiance.y), steps(radiance.z), 1}};
+}
+
 void Exchange::set_radiance(const std::vector<Spectrum>& radiance, float largest,
                             double most_fragments) {
     // largest < 2^exponent; a sum of most_fragments of them stays below 2^62.
@@ -56,7 +73,8 @@ void Exchange::set_radiance(const std::vector<Spectrum>& radiance, float largest
     bits_ = bits;
     workers_.for_ranges(radiance.size(), 16384, [&](std::size_t begin, std::size_t end, int) {
         for (std::size_t i = begin; i < end; ++i)
-            set_radiance(static_cast<std::uint32_t>(i), radiance[i]);
+            radiance_[slot_of(static_cast<std::uint32_t>(i))] =
+                rounded_at_random(radiance[i], draw_of(draw_, i));
     });
 }
 

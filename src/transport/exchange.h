@@ -89,7 +89,11 @@ public:
 
     /// Radiance that every patch sends from now on. \param largest that any patch may send until
     /// the next call; \param most_fragments that a patch may receive until then.
+    /// Rounded to steps at random, so that the mean over patches and draws keeps what is far below
+    /// the largest.
     void set_radiance(const std::vector<Spectrum>& radiance, float largest, double most_fragments);
+    /// Number of the draw that rounds from the next time on: of directions so far, say.
+    void set_draw(std::uint64_t draw) { draw_ = draw; }
     /// The same for one patch, as for sides that send different radiance along each bundle. Above
     /// the largest it is cut off. Different patches may be set at once.
     void set_radiance(std::uint32_t patch, const Spectrum& radiance);
@@ -131,6 +135,7 @@ public:
     }
 
 private:
+    [[nodiscard]] FixedRadiance rounded_at_random(const Spectrum& radiance, double draw) const;
     [[nodiscard]] std::uint32_t slot_of(std::uint32_t patch) const {
         return patch == 2 * leaf_count_ ? patch : slot_of_patch(patch, leaf_count_);
     }
@@ -145,7 +150,8 @@ private:
     const Workers& workers_;
     double unit_ = 1.0;  ///< radiance of one fixed-point step
     double most_steps_ = 0.0;
-    int bits_ = 0;                         ///< of them
+    int bits_ = 0;  ///< of them
+    std::uint64_t draw_ = 0;
     std::vector<FixedRadiance> radiance_;  ///< one a slot
     FixedRadiance along_, against_;        ///< of the environment
     std::vector<std::uint8_t> cluster_;    ///< one a slot, then what is outside

@@ -135,8 +135,9 @@ SpectrumSum FiniteElementComponent::incoming(std::uint32_t patch) const {
 
 SpectrumSum FiniteElementComponent::ratio(std::uint32_t patch) const {
     const PatchSums& s = sums_[patch];
-    // Residuals that were carried may be negative, and where there is hardly any light, their sum.
-    return s.coverage > 0.0 ? glm::max(s.received / s.coverage, SpectrumSum(0.0))
+    // Residuals that were carried have either sign: where there is hardly any light, their sum may
+    // be negative; where there is hardly any more than can be, above that.
+    return s.coverage > 0.0 ? glm::clamp(s.received / s.coverage, SpectrumSum(0.0), most_incoming_)
                             : SpectrumSum(0.0);
 }
 

@@ -13,6 +13,7 @@
 #include <transillum/transport/iterate.h>
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -93,6 +94,8 @@ public:
     void recall();
     /// Lets go of what the last restart set aside.
     void forget();
+    /// No estimate of what arrives exceeds this from now on, whatever was summed up.
+    void limit_incoming(const SpectrumSum& most) { most_incoming_ = most; }
     /// Says that the spread of the blocks so far tells nothing of the error.
     void forget_error() { blocks_ = 0; }
 
@@ -144,6 +147,7 @@ private:
     std::vector<PatchSums> sums_;
     std::vector<Spectrum> radiance_;  ///< when last sent
     std::vector<Spectrum> ratio_;     ///< the same; only where there are glossy sides
+    SpectrumSum most_incoming_{std::numeric_limits<double>::infinity()};
     bool feeds_back_ = true;
     SpectrumSum escaped_{0.0}, entered_{0.0};
     double weights_ = 0.0;

@@ -296,6 +296,21 @@ PatchView Hemicube::view_of(const PatchSums& sums, std::uint32_t patch) const {
             static_cast<float>(std::min(1.0, sums.seen / sums.covered))};
 }
 
+/// Is a patch that shows one side behind something that shows the other, in the pixels about it? At
+/// the outline of a closed body they may see past it, but its far half is behind its near one.
+bool Hemicube::is_inside(const Face& face, int x, int y, std::uint32_t patch,
+                         double distance) const {
+    const auto& pixels = pixels_[static_cast<std::size_t>(&face - faces_.data())];
+    for (int row = std::max(0, y - 1); row < std::min(face.height, y + 2); ++row)
+        for (int column = std::max(0, x - 1); column < std::min(face.width, x + 2); ++column) {
+            const Pixel& p = pixels[static_cast<std::size_t>(row) * face.width + column];
+            if (p.patch != nothing && patches_.is_back(p.patch) != patches_.is_back(patch) &&
+                p.distance * (1.0 + face.pixel) < distance)
+                return true;
+        }
+    return false;
+}
+
 /// A patch between pixel centres: its centre, looked up in the nearest pixel.
 PatchView Hemicube::view_of_missed(std::uint32_t patch) const {
     const std::uint32_t leaf = patches_.leaf_of_patch(patch), root = patches_.root_of_leaf[leaf];
@@ -316,7 +331,9 @@ PatchView Hemicube::view_of_missed(std::uint32_t patch) const {
         const Pixel& pixel =
             pixels_[i][static_cast<std::size_t>(y) * face.width + static_cast<std::size_t>(x)];
         // Within a pixel's width of what is seen there.
-        const bool seen = distance <= pixel.distance * (1.0 + face.pixel);
+        const bool seen =
+            distance <= pixel.distance * (1.0 + face.pixel) &&
+            !is_inside(face, static_cast<int>(x), static_cast<int>(y), patch, distance);
         return {static_cast<float>(up * facing / (squared * squared)), seen ? 1.0f : 0.0f};
     }
     return {};

@@ -65,6 +65,7 @@ private:
     void add_seen(const Face& face);
     PatchView view_of(const PatchSums& sums, std::uint32_t patch) const;
     PatchView view_of_missed(std::uint32_t patch) const;
+    bool is_inside(const Face& face, int x, int y, std::uint32_t patch, double distance) const;
     double front_share(std::uint32_t leaf) const;
 
     const SurfaceMesh& mesh_;

@@ -55,8 +55,8 @@ void add_depth(std::vector<Condition>& to) {
                     .options = few_patches(),
                     .closed_form = even_radiance(),
                     .albedo = 0.5,
-                    .directions = 64,
-                    .seeds = 3,
+                    .directions = 16,
+                    .seeds = 2,
                     .is_long = level > 8};
         c.options.subdivision.patch_size = 1.5 / (1 << level);
         c.options.subdivision.max_level = level;
@@ -85,6 +85,7 @@ void add_refinement(std::vector<Condition>& to) {
                         },
                     .options = few_patches(),
                     .albedo = 0.5,
+                    .directions = phases > 3 ? 256u : 0u,
                     .seeds = phases > 3 ? 3 : 0,
                     .is_long = phases > 3};
         c.options.subdivision.leaf_target = 50;

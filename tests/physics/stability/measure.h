@@ -20,7 +20,7 @@ struct Deviation {
 struct Row {
     std::string name;
     std::uint64_t directions = 0;
-    int seeds = 0;
+    int seeds = 0;  ///< more than asked for where these left it open whether energy is balanced
     std::uint32_t leaves = 0;
     /// Flux that is missing or too much, over what there is, of the worst channel (validation A4).
     Deviation energy;
@@ -30,8 +30,8 @@ struct Row {
     double least = std::numeric_limits<double>::infinity();  ///< radiance
     /// Over the largest source divided by 1 - albedo, which no radiance exceeds.
     double most_over_bound = 0.0;
-    double unseen = 0.0;   ///< largest share of the area that no direction met
-    double seconds = 0.0;  ///< of all seeds
+    double unseen = 0.0;       ///< largest share of the area that no direction met
+    double cpu_seconds = 0.0;  ///< of all threads and seeds
     std::vector<std::string> faults;
 
     [[nodiscard]] bool passed() const { return faults.empty(); }

@@ -102,6 +102,12 @@ std::vector<Condition> random_conditions() {
                 c.options.light.first_shot = FirstShot::off;
             }
             all.push_back(c);
+            if (lit != Lit::evenly) continue;
+            // Points stand for all of these lights: then radiance is even but about.
+            c.name += ", a first shot";
+            c.closed_form = {};
+            c.options.light.first_shot = FirstShot::hemicube;
+            all.push_back(c);
         }
     return all;
 }

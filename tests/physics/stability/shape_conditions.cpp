@@ -231,8 +231,12 @@ public:
             all.push_back(c);
         }
     }
-    void make_long(std::size_t count) {
-        for (std::size_t i = all.size() - count; i < all.size(); ++i) all[i].is_long = true;
+    /// \param directions where as many as the effort says would take too long; else 0
+    void make_long(std::size_t count, std::uint64_t directions = 0) {
+        for (std::size_t i = all.size() - count; i < all.size(); ++i) {
+            all[i].is_long = true;
+            all[i].directions = directions;
+        }
     }
     std::vector<Condition> all;
 };
@@ -242,7 +246,7 @@ void add_stacks(Shapes& s) {
     s.also_without_repair(2);
     s.in_both_lights("stack of 100 nested faces", nested_stack);
     s.also_without_repair(2);
-    s.make_long(2);
+    s.make_long(2, 128);
     s.in_both_lights("stack of 100 turned faces", turned_stack);
     s.make_long(2);
 }
@@ -254,7 +258,7 @@ void add_tiny(Shapes& s) {
             [=](SceneBuilder& b, const RoomMaterials& m, std::uint64_t) {
                 tiny_sphere(b, m, meridians);
             });
-    s.make_long(2);
+    s.make_long(2, 128);
 }
 
 void add_large(Shapes& s) {

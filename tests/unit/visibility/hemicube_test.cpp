@@ -287,6 +287,33 @@ TEST(Hemicube, RefusesResolutionsItCannotDo) {
     EXPECT_NO_THROW(Hemicube(model.mesh, model.patches, 16));
 }
 
+// Patches much smaller than a pixel, most of which no pixel's centre meets: about the outline, far
+// ones are behind pixels that see past the ball.
+TEST(Hemicube, DoesNotSeeIntoAClosedBody) {
+    constexpr double radius = 0.4, distance = 1.0;
+    constexpr int resolution = 64;
+    SceneBuilder builder;
+    builder.sphere({0, 0, distance}, radius, 64, Facing::outwards);
+    const Model model(builder, 0);
+    Hemicube hemicube(model.mesh, model.patches, resolution);
+    Random random(7, 2);
+    double outside = 0.0, inside = 0.0;
+    for (int turn = 0; turn < turns; ++turn) {
+        const auto& views = hemicube.look({0, 0, 0}, turned_frame({0, 0, 1}, random));
+        for (std::uint32_t p = 0; p < model.patches.patch_count(); ++p) {
+            const std::uint32_t leaf = model.patches.leaf_of_patch(p);
+            (model.patches.is_back(p) ? inside : outside) +=
+                area_of_leaf(model.mesh, model.patches, leaf) * views[p].mean_kernel *
+                views[p].visibility;
+        }
+    }
+    EXPECT_GT(outside, 0.0);
+    // Pixels on the outline may be as far off as vertices are rounded: 2^-8 of a pixel.
+    const double radius_in_pixels =
+        0.5 * resolution * radius / std::sqrt(distance * distance - radius * radius);
+    EXPECT_LE(inside, 2.0 / (radius_in_pixels * 0x1p8) * outside);
+}
+
 TEST(Hemicube, SeesAllAroundThroughACube) {
     SceneBuilder builder;
     builder.box({-1, -1, -1}, {1, 1, 1}, Facing::inwards);
