@@ -3,7 +3,8 @@
 //
 //   bench_convergence SCENE... > convergence.csv
 //
-// A row is a scene, a method and a count (directions; of `reference`, paths a pixel):
+// A row is a scene, a method and a count (directions; of `reference`, paths a pixel; it shares what
+// they find between neighbouring pixels, "own paths" does not):
 //   bake_seconds, render_seconds          means over the seeds
 //   image_error, image_low, image_high    relative RMSE of the picture, without pixels that see an
 //                                         emitter: mean over seeds, and its 95 % confidence
@@ -37,6 +38,8 @@
 #include <exception>
 #include <filesystem>
 #include <optional>
+#include <string_view>
+#include <utility>
 
 namespace {
 
@@ -44,6 +47,7 @@ using namespace transillum;
 using namespace transillum::benchmarks;
 
 constexpr std::uint64_t seed_of_truth = 1001;
+constexpr const char* own_paths = "reference, own paths";
 
 struct Arguments {
     std::vector<std::string> scenes, methods;
@@ -122,7 +126,10 @@ public:
     }
 
     void measure() {
-        if (arguments_.wants("reference")) sum_up("reference", measure_reference());
+        for (const bool shares : {false, true}) {
+            const char* const name = shares ? "reference" : own_paths;
+            if (arguments_.wants(name)) sum_up(name, measure_reference(name, shares));
+        }
         for (const Variant& v : all_variants())
             if (arguments_.wants(v.name)) sum_up(v.name, measure_variant(v));
     }
@@ -135,16 +142,17 @@ private:
         std::fprintf(stderr, "\r%s: truth's noise %.2f %%\n", name_.c_str(), 100.0 * truth_.noise);
     }
 
-    Image trace(int samples, std::uint64_t seed) {
+    Image trace(int samples, std::uint64_t seed, bool shares = true) {
         PathTraceOptions options;
         options.width = arguments_.view.width;
         options.height = arguments_.view.height;
         options.samples = samples;
         options.seed = seed;
+        options.shares_paths = shares;
         return path_trace(surface_, scene_.lighting, camera_, options, workers_, silent_);
     }
 
-    std::vector<Row> measure_reference() {
+    std::vector<Row> measure_reference(const char* name, bool shares) {
         std::vector<Row> rows;
         for (int samples = 1; samples <= arguments_.most_samples; samples *= 2) {
             Row row;
@@ -152,10 +160,10 @@ private:
             std::vector<Image> images;
             const Clock clock;
             for (int seed = 1; seed <= arguments_.seeds; ++seed)
-                images.push_back(trace(samples, static_cast<std::uint64_t>(seed)));
+                images.push_back(trace(samples, static_cast<std::uint64_t>(seed), shares));
             row.render_seconds = clock.seconds() / arguments_.seeds;
             row.image = image_errors(images, truth_);
-            print("reference", row);
+            print(name, row);
             rows.push_back(row);
         }
         return rows;
@@ -222,17 +230,18 @@ private:
 
     void sum_up(const char* method, const std::vector<Row>& rows) {
         if (rows.empty()) return;
-        const bool is_reference = std::string(method) == "reference";
+        const bool is_reference = std::string_view(method).starts_with("reference");
         const double seconds = is_reference ? seconds_of_unbiased_to(rows, arguments_.level)
                                             : seconds_to(rows, arguments_.level);
         std::fprintf(stderr, "%s, %s: %.4g s to %.3g %%", name_.c_str(), method, seconds,
                      100.0 * arguments_.level);
         if (is_reference) {
-            seconds_of_reference_ = seconds;
-        } else if (std::isfinite(seconds) && seconds_of_reference_ > 0.0) {
-            std::fprintf(stderr, ", `reference` over that: %.3g; over a picture of it alone: %.3g",
-                         seconds_of_reference_ / seconds,
-                         seconds_of_reference_ / rows.back().render_seconds);
+            references_.emplace_back(method, seconds);
+        } else if (std::isfinite(seconds)) {
+            for (const auto& [name, of_reference] : references_)
+                std::fprintf(stderr, "; %s over that: %.3g, over a picture of it alone: %.3g",
+                             name.c_str(), of_reference / seconds,
+                             of_reference / rows.back().render_seconds);
         }
         if (rows.front().leaf && rows.size() > 1)
             std::fprintf(stderr, "; leaf error falls as m^%.2f", fall(rows));
@@ -248,7 +257,7 @@ private:
     SurfaceMesh surface_;
     Camera camera_;
     ImageTruth truth_;
-    double seconds_of_reference_ = 0.0;
+    std::vector<std::pair<std::string, double>> references_;  ///< seconds to the level
 };
 
 int run(const Arguments& a) {
@@ -262,7 +271,7 @@ int run(const Arguments& a) {
 }
 
 std::string names_of_methods() {
-    std::string names = "reference";
+    std::string names = fmt::format("reference, \"{}\"", own_paths);
     for (const Variant& v : all_variants()) names += fmt::format(", \"{}\"", v.name);
     return names;
 }

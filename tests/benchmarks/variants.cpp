@@ -12,6 +12,8 @@ const std::vector<Variant>& all_variants() {
          MonteCarloShading::off, 0},
         {"+ finite elements", FirstShot::hemicube, Averaging::balanced, MonteCarlo::off,
          MonteCarloShading::off, 0},
+        {"+ finite elements, stored light", FirstShot::hemicube, Averaging::balanced,
+         MonteCarlo::off, MonteCarloShading::off, 0, DirectShading::stored},
         {"+ subpatch", FirstShot::hemicube, Averaging::balanced, MonteCarlo::subpatch,
          MonteCarloShading::subpatch, 0},
         {"+ wavefront", FirstShot::hemicube, Averaging::balanced, MonteCarlo::wavefront,
@@ -37,7 +39,7 @@ Solution bake_variant(const Variant& v, std::uint64_t directions, const Scene& s
     options.iteration.monte_carlo = v.carried;
     options.iteration.iterations = directions;
     options.refinement.phases = v.refinement;
-    options.refinement.direct = false;
+    options.refinement.direct = v.direct == DirectShading::stored;
     return bake(scene, options, workers, silent);
 }
 
@@ -52,6 +54,7 @@ Image render_variant(const Variant& v, std::uint64_t directions, const Solution&
     options.width = view.width;
     options.height = view.height;
     options.monte_carlo = v.shown;
+    options.direct = v.direct;
     options.iterations = v.shown == MonteCarloShading::off ? 1 : static_cast<int>(directions);
     options.seed = solution.seed;
     return render_solution(solution, camera_of(view, solution.cameras, solution.surface), options,

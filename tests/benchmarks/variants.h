@@ -20,12 +20,12 @@ struct Variant {
     MonteCarlo carried;
     MonteCarloShading shown;
     int refinement;
+    DirectShading direct = DirectShading::traced;
 };
 
 [[nodiscard]] const std::vector<Variant>& all_variants();
 
-/// A bake of so many directions. Direct light of a first shot is traced in the picture, so that its
-/// own storage is no part of the errors. \param common what does not depend on the variant
+/// A bake of so many directions. \param common what does not depend on the variant
 [[nodiscard]] Solution bake_variant(const Variant& variant, std::uint64_t directions,
                                     const Scene& scene, const BakeOptions& common,
                                     const Workers& workers);

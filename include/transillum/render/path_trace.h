@@ -16,6 +16,8 @@ struct PathTraceOptions {
     int samples = 256;    ///< paths a pixel
     int max_bounces = 0;  ///< reflections; 0: no limit, roulette alone ends paths
     std::uint64_t seed = 1;
+    /// What paths find is shared between the pixels of a tile; else every pixel has its own.
+    bool shares_paths = true;
 };
 
 /// Asked to stop, it returns the mean of the paths it has. The image does not depend on the number

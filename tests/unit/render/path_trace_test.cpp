@@ -211,11 +211,13 @@ TEST(PathTrace, BouncesAreBounded) {
     // In a furnace n reflections give the geometric series' first n + 1 terms.
     const SurfaceMesh room = unit_room(0.5f, {1, 1, 1, 1, 1, 1});
     Monitor silent;
-    for (int bounces = 1; bounces <= 3; ++bounces) {
+    for (int i = 0; i < 6; ++i) {
+        const int bounces = 1 + i / 2;
+        const bool shares = i % 2 == 0;
         Estimate e;
         for (std::uint64_t seed = 1; seed <= 8; ++seed) {
-            const Image image = path_trace(room, {}, camera_in_room(), {12, 12, 32, bounces, seed},
-                                           Workers(1), silent);
+            const Image image = path_trace(room, {}, camera_in_room(),
+                                           {12, 12, 32, bounces, seed, shares}, Workers(1), silent);
             double sum = 0.0;
             for (const Spectrum& pixel : image.pixels) sum += pixel.x;
             e.add(sum / 144.0);
