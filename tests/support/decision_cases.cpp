@@ -33,15 +33,13 @@ public:
                 c.forced_options.bins.level = 3;
             },
             1e-4);
-        // Close to the ceiling the points that stand for it can be told apart.
-        add(
-            "no small emitter", "no first shot", bright_room(),
-            [](DecisionCase& c) {
-                c.options.light.first_shot = FirstShot::automatic;
-                c.forced_options.light.first_shot = FirstShot::hemicube;
-                c.forced_options.light.samples = 256;
-            },
-            0.1);
+        add("no small emitter", "no first shot", bright_room(), [](DecisionCase& c) {
+            c.options.light.first_shot = FirstShot::automatic;
+            c.forced_options.light.first_shot = FirstShot::hemicube;
+            c.forced_options.light.samples = 256;
+            // Close to the ceiling the points that stand for it can be told apart.
+            c.means_alone = true;
+        });
         add("closed", "no environment", bright_room(), [](DecisionCase& c) {
             Environment& sky = c.forced_scene.lighting.environment;
             sky.kind = Environment::Kind::uniform;
@@ -67,7 +65,7 @@ public:
                 c.options.iteration.iterations = c.forced_options.iteration.iterations =
                     std::max<std::uint64_t>(256, c.options.iteration.iterations);
                 c.forced_options.subdivision.leaf_target *= 4;
-                c.other_patches = true;
+                c.means_alone = true;
             },
             1e-5);
         add("dark rooms", "left out of the transport", one_lit_room_of(4),

@@ -15,7 +15,8 @@ struct DecisionCase {
     const char* told = "";  ///< in what a bake says that decides: of a Decision, or why
     Scene scene, forced_scene;
     BakeOptions options, forced_options;
-    bool other_patches = false;  ///< when forced, so that only means can be compared
+    /// Only means can be compared: the forced bake has other patches, or other shapes of light.
+    bool means_alone = false;
     /// Of what arrives, relative, beside the errors that both bakes estimate of themselves.
     double tolerance = 0.0;
 };

@@ -56,7 +56,7 @@ TEST_P(Decisions, AreToldAndChangeNothing) {
     // Errors of independent runs add up in squares; these are estimates within a factor of 1.5.
     const double errors = 1.5 * std::hypot(a.relative_error, b.relative_error);
     EXPECT_NEAR(a.mean() / b.mean(), 1.0, errors + c.tolerance);
-    if (!c.other_patches) {
+    if (!c.means_alone) {
         EXPECT_LE(relative_rms(a, b), errors + c.tolerance);
     }
 }
