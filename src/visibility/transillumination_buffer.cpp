@@ -60,13 +60,9 @@ double pixel_size_for(const SurfaceMesh& mesh, int resolution) {
 double automatic_pixel_size(const SurfaceMesh& mesh, const PatchHierarchy& patches) {
     constexpr double pixels_a_leaf_edge = 3.0;
     constexpr int least_resolution = 256, largest_resolution = 4096;
-    double area = 0.0, weighted_edge = 0.0;
-    for (std::uint32_t leaf = 0; leaf < patches.leaf_count; ++leaf) {
-        const double a = area_of_leaf(mesh, patches, leaf);
-        area += a;
-        weighted_edge += a * std::sqrt(2.0 * a);
-    }
-    const double wanted = weighted_edge / area / pixels_a_leaf_edge;
+    double area = 0.0;
+    for (std::uint32_t root = 0; root < mesh.triangles.size(); ++root) area += area_of(mesh, root);
+    const double wanted = std::sqrt(2.0 * area / patches.leaf_count) / pixels_a_leaf_edge;
     return std::clamp(wanted, pixel_size_for(mesh, largest_resolution),
                       pixel_size_for(mesh, least_resolution));
 }

@@ -141,8 +141,10 @@ private:
 /// 8192].
 [[nodiscard]] double pixel_size_for(const SurfaceMesh& mesh, int resolution);
 
-/// Pixel size for which an average leaf (by area) is three pixels wide, of windows between 256 and
-/// 4096 wide.
+/// Pixel size for which a leaf of mean area is three pixels wide, of windows between 256 and 4096
+/// wide. What sampling by pixels adds to the variance of a leaf goes with pixel area over its own:
+/// of the whole surface, that is the mean by area of 1 / area, which is 1 / mean area, however
+/// large the largest leaves are.
 [[nodiscard]] double automatic_pixel_size(const SurfaceMesh& mesh, const PatchHierarchy& patches);
 
 }  // namespace transillum
