@@ -24,8 +24,11 @@ Components chosen(const std::vector<std::string>& words) {
 
 void add_shading_options(CLI::App& command, ShadingOptions& options, const std::string& automatic) {
     add_choice(command, "--direct", options.render.direct,
-               {{"stored", DirectShading::stored}, {"traced", DirectShading::traced}},
-               "direct light: as stored a patch, or by shadow rays to the light samples")
+               {{"stored", DirectShading::stored},
+                {"traced", DirectShading::traced},
+                {"traced-everywhere", DirectShading::traced_everywhere}},
+               "direct light: as stored a patch, or by shadow rays to the light samples: where "
+               "those are seen in part, or from every point")
         ->group("Shading");
     command
         .add_option("--components", options.components,

@@ -101,13 +101,27 @@ void DirectShader::use_sample(const SurfacePoint& p, std::size_t sample, float s
         true);
 }
 
+void DirectShader::prepare_traced(const VertexGrid* grid, const Workers& workers) {
+    const DirectLight& light = solution_.direct;
+    shadow_edges_ = grid && !light.has_vectors()
+                        ? ShadowEdges(light, solution_.patches, *grid, workers)
+                        : ShadowEdges(light);
+}
+
 Spectrum DirectShader::traced(const SurfacePoint& p) const {
     Spectrum sum(0.0f);
-    for (std::size_t i = 0; i < solution_.direct.samples.size(); ++i) {
-        use_sample(p, i, 1.0f, [&](const glm::vec3& in, const Spectrum& e, bool of_surface) {
-            const Spectrum here = reflected(p, in, e, of_surface);
-            if (max_channel(here) > 0.0f && sees(p, solution_.direct.samples[i])) sum += here;
-        });
+    for (std::size_t word = 0; word < shadow_edges_.words(); ++word) {
+        const ShadowEdges::Word& edges = shadow_edges_.at(p.patch, word);
+        for (std::uint64_t left = edges.seen | edges.doubtful; left != 0; left &= left - 1) {
+            const bool is_doubtful = ((left & -left) & edges.doubtful) != 0;
+            const std::size_t i = word * ShadowEdges::samples_a_word +
+                                  static_cast<std::size_t>(std::countr_zero(left));
+            use_sample(p, i, 1.0f, [&](const glm::vec3& in, const Spectrum& e, bool of_surface) {
+                const Spectrum here = reflected(p, in, e, of_surface);
+                if (!(max_channel(here) > 0.0f)) return;
+                if (!is_doubtful || sees(p, solution_.direct.samples[i])) sum += here;
+            });
+        }
     }
     return sum;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "render/reflected_sum.h"
+#include "render/shadow_edges.h"
 #include "render/surface_point.h"
 #include "render/vertex_stencils.h"
 
@@ -25,8 +26,15 @@ public:
     void prepare_stored(const VertexGrid* grid, const VertexStencils* stencils,
                         const Workers& workers);
 
-    /// Shadow rays decide which light samples are seen.
+    /// Lets `traced` be called. \param grid null: rays to every light sample
+    void prepare_traced(const VertexGrid* grid, const Workers& workers);
+
+    /// Shadow rays decide which light samples are seen, where that is in doubt.
     [[nodiscard]] Spectrum traced(const SurfacePoint& p) const;
+    /// Mean share of the light samples that are in doubt.
+    [[nodiscard]] double doubtful_share() const {
+        return shadow_edges_.doubtful_share(solution_.direct.samples.size());
+    }
     /// What the solution holds: visibilities of the light samples, or light vectors.
     /// \pre p has a side
     [[nodiscard]] Spectrum stored(const SurfacePoint& p) const;
@@ -56,6 +64,7 @@ private:
     const RayTracer& rays_;
     double beyond_ = 0.0;            ///< further than any two points of the surface are apart
     std::vector<Emitter> emitters_;  ///< one a sample; of surfaces alone
+    ShadowEdges shadow_edges_;
     const VertexGrid* grid_ = nullptr;
     /// In 255ths, mean of the patches that touch a vertex and face the sample; rows of samples,
     /// padded with zeros.

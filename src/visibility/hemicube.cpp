@@ -38,7 +38,7 @@ constexpr std::uint32_t nothing = 0xffffffffu;
 /// Triangles are clipped at this multiple of a face's half width, and scissored within it.
 constexpr double guard_band = 4.0;
 constexpr std::uint32_t enough_pixels = 64;
-/// Heights over a plane, relative to the distance, that rounding alone can make.
+/// Heights over a plane that rounding alone can make, relative to the coordinates they come from.
 constexpr double rounding = 64.0 * std::numeric_limits<double>::epsilon();
 
 struct Outline {
@@ -194,8 +194,10 @@ void Hemicube::draw_root(const Face& face, std::uint32_t root) {
     const glm::dvec3 e1 = corner[1] - corner[0], e2 = corner[2] - corner[0];
     const glm::dvec3 area_normal = glm::cross(e1, e2);
     const double height = glm::dot(area_normal, corner[0]);
-    // Edge-on but for rounding: the plane the point itself lies on.
-    if (std::abs(height) <= rounding * glm::length(area_normal) * glm::length(corner[0])) return;
+    // Edge-on but for rounding: the plane the point itself lies on, which it may lie a little
+    // behind.
+    const double coordinates = glm::length(position_) + glm::length(corner[0]);
+    if (std::abs(height) <= rounding * glm::length(area_normal) * coordinates) return;
     const glm::dvec3 normal = glm::normalize(area_normal);
     const double per_area = 1.0 / glm::dot(area_normal, area_normal);
     const glm::dvec3 to_b1 = glm::cross(e2, area_normal) * per_area,
@@ -320,7 +322,8 @@ PatchView Hemicube::view_of_missed(std::uint32_t patch) const {
         distribution_ ? distance * (*distribution_)(d / distance) : glm::dot(d, frame_[2]);
     const double facing =
         glm::dot(d, normal_of(mesh_, root)) * (patches_.is_back(patch) ? 1.0 : -1.0);
-    if (up <= rounding * distance || facing <= rounding * distance) return {};
+    const double least = rounding * (glm::length(position_) + distance);
+    if (up <= least || facing <= least) return {};
     for (std::size_t i = 0; i < faces_.size(); ++i) {
         const Face& face = faces_[i];
         const double forward = glm::dot(d, face.forward);

@@ -14,7 +14,8 @@ namespace transillum {
 
 enum class DirectShading {
     stored,  ///< the patches' stored incoming radiance, interpolated like the finite elements
-    traced   ///< shadow rays to the light samples, at every point
+    traced,  ///< shadow rays to the light samples, where patches see them in part, or neighbours do
+    traced_everywhere  ///< shadow rays to all of them from every point
 };
 
 /// How the Monte-Carlo component, what finite elements leave out of the reflection, is estimated.

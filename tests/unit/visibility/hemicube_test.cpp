@@ -168,25 +168,32 @@ TEST(Hemicube, OwnPlaneAndWhatLiesBehindSeeNothing) {
     }
 }
 
-/// The same on planes in which rounding leaves a point a little above or below.
+/// The same on planes in which rounding leaves a point a little above or below: the further from
+/// the origin, the more of the triangle's size that is.
 TEST(Hemicube, APointOnASlantedPlaneDoesNotSeeIt) {
     Random random(7, 7);
-    for (int i = 0; i < 50; ++i) {
-        const double u = random.next();
-        const glm::dmat3 f = frame_about(uniform_direction(u, random.next()));
-        SceneBuilder builder;
-        builder.polygon({f[0], -0.5 * f[0] + 0.8 * f[1], -0.5 * f[0] - 0.8 * f[1]});
-        builder.polygon({10.0 * f[2], 10.0 * f[2] + 0.1 * f[1], 10.0 * f[2] + 0.1 * f[0]});
-        const Model model(builder, 1);
-        Hemicube hemicube(model.mesh, model.patches, 64);
-        const auto& v = model.mesh.triangles[0].vertices;
-        const glm::dvec3 point = 0.25 * model.mesh.positions[v[0]] +
-                                 0.35 * model.mesh.positions[v[1]] +
-                                 0.4 * model.mesh.positions[v[2]];
-        const auto& views = hemicube.look(point, turned_frame(normal_of(model.mesh, 0), random));
-        for (const bool back : {false, true})
-            EXPECT_EQ(model.solid_angle(views, 0, back, true), 0.0);
-    }
+    for (const double away : {0.0, 3.0, 1e3, 1e6})
+        for (int i = 0; i < 50; ++i) {
+            const double u = random.next();
+            const glm::dmat3 f = frame_about(uniform_direction(u, random.next()));
+            const double w = random.next();
+            const glm::dvec3 o = away * uniform_direction(w, random.next());
+            SceneBuilder builder;
+            builder.polygon({o + f[0], o - 0.5 * f[0] + 0.8 * f[1], o - 0.5 * f[0] - 0.8 * f[1]});
+            builder.polygon(
+                {o + 10.0 * f[2], o + 10.0 * f[2] + 0.1 * f[1], o + 10.0 * f[2] + 0.1 * f[0]});
+            const Model model(builder, 1);
+            Hemicube hemicube(model.mesh, model.patches, 64);
+            const auto& v = model.mesh.triangles[0].vertices;
+            const double b1 = 0.9 * random.next(), b2 = (0.95 - b1) * random.next();
+            const glm::dvec3 point = (1.0 - b1 - b2) * model.mesh.positions[v[0]] +
+                                     b1 * model.mesh.positions[v[1]] +
+                                     b2 * model.mesh.positions[v[2]];
+            const auto& views =
+                hemicube.look(point, turned_frame(normal_of(model.mesh, 0), random));
+            for (const bool back : {false, true})
+                EXPECT_EQ(model.solid_angle(views, 0, back, true), 0.0) << "away " << away;
+        }
 }
 
 TEST(Hemicube, PatchesBetweenPixelsGetTheirKernel) {
