@@ -53,7 +53,10 @@ std::uint64_t nonzero_bytes(std::uint64_t eight) {
 }  // namespace
 
 DirectShader::DirectShader(const Solution& solution, const RayTracer& rays)
-    : solution_(solution), rays_(rays), beyond_(1.01 * diameter_of(solution.surface)) {
+    : solution_(solution),
+      rays_(rays),
+      beyond_(1.01 * diameter_of(solution.surface)),
+      shadow_edges_(solution.direct) {
     for (const LightSample& s : solution.direct.samples)
         emitters_.push_back({s.position, glm::vec3(s.normal),
                              s.emitted * static_cast<float>(s.area),
@@ -101,11 +104,9 @@ void DirectShader::use_sample(const SurfacePoint& p, std::size_t sample, float s
         true);
 }
 
-void DirectShader::prepare_traced(const VertexGrid* grid, const Workers& workers) {
-    const DirectLight& light = solution_.direct;
-    shadow_edges_ = grid && !light.has_vectors()
-                        ? ShadowEdges(light, solution_.patches, *grid, workers)
-                        : ShadowEdges(light);
+void DirectShader::find_shadow_edges(const VertexGrid& grid, const Workers& workers) {
+    if (!solution_.direct.has_vectors())
+        shadow_edges_ = ShadowEdges(solution_.direct, solution_.patches, grid, workers);
 }
 
 Spectrum DirectShader::traced(const SurfacePoint& p) const {

@@ -26,8 +26,8 @@ public:
     void prepare_stored(const VertexGrid* grid, const VertexStencils* stencils,
                         const Workers& workers);
 
-    /// Lets `traced` be called. \param grid null: rays to every light sample
-    void prepare_traced(const VertexGrid* grid, const Workers& workers);
+    /// Spares `traced` the rays to light samples that are not in doubt.
+    void find_shadow_edges(const VertexGrid& grid, const Workers& workers);
 
     /// Shadow rays decide which light samples are seen, where that is in doubt.
     [[nodiscard]] Spectrum traced(const SurfacePoint& p) const;

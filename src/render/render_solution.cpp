@@ -268,7 +268,14 @@ SolutionRenderer::SolutionRenderer(const Solution& solution, const RenderOptions
                                    const Workers& workers, Monitor& monitor)
     : options_(decided(solution, options, monitor)),
       shader_(std::make_unique<SolutionShader>(solution, options_, workers)),
-      gather_(make_gather(solution, *shader_, options_, workers)) {}
+      gather_(make_gather(solution, *shader_, options_, workers)) {
+    if (options_.components.direct && options_.direct == DirectShading::traced &&
+        !solution.direct.samples.empty())
+        monitor.note(
+            fmt::format("shadow rays to {:.2g} % of the light samples: patches and those "
+                        "about them see the others wholly or not at all",
+                        100.0 * shader_->direct().doubtful_share()));
+}
 
 SolutionRenderer::~SolutionRenderer() = default;
 SolutionRenderer::SolutionRenderer(SolutionRenderer&&) noexcept = default;

@@ -14,7 +14,8 @@ std::size_t words_for(std::size_t samples) {
     return (samples + samples_a_word - 1) / samples_a_word;
 }
 
-/// What a row of visibilities says. Behind the patch's horizon a sample is neither seen nor hidden.
+/// What a row of visibilities says. Samples behind the horizon are neither seen nor hidden, which
+/// leaves it to the neighbours.
 struct Found {
     std::uint64_t seen = 0, hidden = 0, facing = 0;
 };
@@ -60,6 +61,7 @@ ShadowEdges::ShadowEdges(const DirectLight& light, const PatchHierarchy& patches
             const std::size_t side = p - leaf;
             const auto own = found.begin() + static_cast<std::ptrdiff_t>(p * words_);
             std::copy_n(own, words_, around.begin());
+            for (Found& word : around) word.hidden |= ~word.facing;
             for (const std::uint32_t vertex : grid.leaf_vertices[leaf])
                 for (const std::uint32_t neighbour : grid.leaves_at(vertex))
                     for (std::size_t w = 0; w < words_; ++w) {
@@ -75,7 +77,7 @@ ShadowEdges::ShadowEdges(const DirectLight& light, const PatchHierarchy& patches
 }
 
 double ShadowEdges::doubtful_share(std::size_t samples) const {
-    if (of_patches_.empty()) return 0.0;
+    if (samples == 0) return 0.0;
     std::uint64_t doubtful = 0;
     for (const Word& word : of_patches_)
         doubtful += static_cast<std::uint64_t>(std::popcount(word.doubtful));

@@ -29,8 +29,7 @@ SolutionShader::SolutionShader(const Solution& solution, const RenderOptions& op
       direct_(solution, rays_) {
     const Components& c = options.components;
     const VertexGrid* const grid = options.interpolate ? &grid_ : nullptr;
-    const bool finds_edges = c.direct && options.direct == DirectShading::traced;
-    if (grid || finds_edges) grid_ = build_vertex_grid(solution.surface, solution.patches);
+    if (grid) grid_ = build_vertex_grid(solution.surface, solution.patches);
     const bool has_glossy = !solution.glossy.empty();
     const bool monte_carlo = has_glossy && options.monte_carlo != MonteCarloShading::off;
     rays_from_eye_ = options.monte_carlo == MonteCarloShading::rays;
@@ -41,8 +40,9 @@ SolutionShader::SolutionShader(const Solution& solution, const RenderOptions& op
     const bool stored_direct = c.direct && options.direct == DirectShading::stored;
     if (has_glossy && (stored_direct || monte_carlo))
         direct_.prepare_stored(grid, &glossy_.stencils(), workers);
-    if (c.direct && options.direct != DirectShading::stored)
-        direct_.prepare_traced(finds_edges ? &grid_ : nullptr, workers);
+    if (c.direct && options.direct == DirectShading::traced)
+        direct_.find_shadow_edges(
+            grid ? grid_ : build_vertex_grid(solution.surface, solution.patches), workers);
     shown_lambert_ = LambertField(solution, grid, {stored_direct, c.finite_element}, workers);
     shown_ = {c.emission, c.direct, c.finite_element, monte_carlo, options.direct, &shown_lambert_};
     if (monte_carlo) whole_lambert_ = LambertField(solution, grid, {}, workers);

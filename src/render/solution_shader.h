@@ -54,6 +54,7 @@ public:
     [[nodiscard]] const VertexGrid* grid() const {
         return grid_.leaf_vertices.empty() ? nullptr : &grid_;
     }
+    [[nodiscard]] const DirectShader& direct() const { return direct_; }
     /// \pre the solution has glossy sides
     [[nodiscard]] const GlossyField& glossy() const { return glossy_; }
 

@@ -36,6 +36,7 @@ struct View {
     int samples;
     bool monte_carlo;
     int iterations;
+    DirectShading direct = DirectShading::stored;
 };
 
 void frames(benchmark::State& state, const Measured& m, const Camera& camera, const View& view) {
@@ -45,7 +46,7 @@ void frames(benchmark::State& state, const Measured& m, const Camera& camera, co
     options.width = options.height = size;
     options.samples = view.samples;
     options.iterations = view.iterations;
-    options.direct = DirectShading::stored;
+    options.direct = view.direct;
     options.monte_carlo = view.monte_carlo ? MonteCarloShading::rays : MonteCarloShading::off;
     SolutionRenderer renderer(m.solution, options, workers, silent);
     for (auto _ : state) benchmark::DoNotOptimize(renderer.render(camera, workers, silent));
@@ -70,7 +71,11 @@ int main(int count, char** words) {
     for (int i = 1; i < count; ++i) solutions.push_back({words[i], load_solution(words[i])});
     if (solutions.empty()) solutions.push_back(cornell_box());
     const std::vector<View> views{
-        {"one_sample", 1, false, 1}, {"adaptive", 16, false, 1}, {"monte_carlo", 1, true, 1}};
+        {"one_sample", 1, false, 1},
+        {"adaptive", 16, false, 1},
+        {"monte_carlo", 1, true, 1},
+        {"traced", 16, false, 1, DirectShading::traced},
+        {"traced_everywhere", 16, false, 1, DirectShading::traced_everywhere}};
     for (const Measured& m : solutions) {
         benchmark::RegisterBenchmark((m.name + "/prepare").c_str(),
                                      [&m](benchmark::State& s) { prepare(s, m); })

@@ -22,6 +22,12 @@ inline Solution dark_solution(const SurfaceMesh& surface, int level) {
     return s;
 }
 
+/// Every patch faces every light sample and sees it in part.
+inline void leave_samples_in_doubt(Solution& s) {
+    s.direct.geometry_factor.assign(s.direct.samples.size() * s.patches.patch_count(), 1.0f);
+    s.direct.visibility.assign(s.direct.geometry_factor.size(), 0.5f);
+}
+
 inline Material glossy(Lobe lobe, float diffuse, float specular, float shininess, float roughness) {
     Material m;
     m.lobe = lobe;
