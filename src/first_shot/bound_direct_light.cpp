@@ -1,6 +1,9 @@
 #include "first_shot/bound_direct_light.h"
 
+#include <glm/geometric.hpp>
+
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 namespace transillum {
@@ -65,7 +68,54 @@ private:
         return cut;
     }
 
-    void spread(const std::vector<double>& cut) {
+    /// \param cut emptied
+    void spread(std::vector<double>& cut) {
+        if (near_.empty()) find_near();
+        for (std::size_t i = 0; i < cut.size(); ++i)
+            if (cut[i] > 0.0 && spread_near(i, cut[i])) cut[i] = 0.0;
+        if (std::ranges::any_of(cut, [](double c) { return c > 0.0; })) spread_everywhere(cut);
+    }
+
+    /// Patches whose centre lies within two diameters of a disc as large as a sample's piece.
+    void find_near() {
+        near_.resize(columns_.size());
+        workers_.for_ranges(columns_.size(), 1, [&](std::size_t begin, std::size_t end, int) {
+            for (std::size_t i = begin; i < end; ++i)
+                for (std::uint32_t p = 0; p < total_.size(); ++p)
+                    if (is_near(p, columns_[i])) near_[i].push_back(p);
+        });
+    }
+
+    [[nodiscard]] bool is_near(std::uint32_t patch, std::size_t column) const {
+        const std::uint32_t leaf = patches_.leaf_of_patch(patch);
+        const glm::dvec3 centre = leaf_centre(mesh_, patches_, leaf);
+        const auto [first, last] = light_.samples_of(column);
+        for (std::size_t s = first; s < last; ++s) {
+            const LightSample& sample = light_.samples[s];
+            const glm::dvec3 way = sample.position - centre;
+            const double reach = 4.0 * std::sqrt(sample.area * std::numbers::inv_pi);
+            if (glm::dot(way, way) < reach * reach) return true;
+        }
+        return false;
+    }
+
+    /// Evenly. \returns false where there is no room
+    bool spread_near(std::size_t i, double cut) {
+        const auto has_room = [&](std::uint32_t p) {
+            return !is_full_[p] && light_.share(p, columns_[i]) > 0.0;
+        };
+        double area = 0.0;
+        for (const std::uint32_t p : near_[i])
+            if (has_room(p)) area += area_of(p);
+        if (!(area > 0.0)) return false;
+        for (const std::uint32_t p : near_[i])
+            if (has_room(p))
+                light_.scale(p, columns_[i], 1.0 + cut / area / light_.share(p, columns_[i]));
+        return true;
+    }
+
+    /// In proportion.
+    void spread_everywhere(const std::vector<double>& cut) {
         std::vector<double> elsewhere(columns_.size());
         for (std::size_t p = 0; p < total_.size(); ++p)
             for (std::size_t i = 0; !is_full_[p] && i < columns_.size(); ++i)
@@ -87,6 +137,7 @@ private:
     std::vector<std::size_t> columns_;  ///< of surfaces
     std::vector<double> total_;         ///< projected solid angle that they fill, one a patch
     std::vector<std::uint8_t> is_full_;
+    std::vector<std::vector<std::uint32_t>> near_;  ///< patches, by column; once they are needed
 };
 
 }  // namespace

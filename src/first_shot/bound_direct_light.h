@@ -10,8 +10,9 @@ namespace transillum {
 
 /// Emitting surfaces fill at most the hemisphere above a patch, a projected solid angle of pi. A
 /// point that stands for a piece of one shines without bound on what is closer to it than the piece
-/// is wide. What is more than pi there is spread over all else that the point lights, in
-/// proportion: so much less of its flux goes there, had it been spread over its piece.
+/// is wide. What is more than pi there is spread over what else it lights close to its piece, where
+/// its flux would go had it been spread over that: behind a screen before the lamp, say, and not
+/// past it. Where all that is full, over all the point lights, in proportion.
 void bound_direct_light(const SurfaceMesh& mesh, const PatchHierarchy& patches, DirectLight& light,
                         const Workers& workers);
 

@@ -8,6 +8,7 @@
 #include <glm/vec3.hpp>
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace transillum {
@@ -65,6 +66,8 @@ struct DirectLight {
     [[nodiscard]] const LightSample& light(std::size_t column) const {
         return samples[has_vectors() ? first_samples[column] : column];
     }
+    /// Where the column's samples begin and end.
+    [[nodiscard]] std::pair<std::size_t, std::size_t> samples_of(std::size_t column) const;
     /// Irradiance of a patch by what a column emits.
     [[nodiscard]] double share(std::size_t patch, std::size_t column) const;
     void scale(std::size_t patch, std::size_t column, double factor);

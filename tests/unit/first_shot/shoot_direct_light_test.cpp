@@ -128,6 +128,27 @@ TEST(DirectIrradiance, InAClosedBoxNoFluxIsLost) {
     EXPECT_EQ(flux.z, 0.0);
 }
 
+/// A board covers the lamp so closely that what a sample sends lands on a leaf or two, several
+/// times what fills them. None of it belongs past the board.
+TEST(DirectIrradiance, NothingPassesAScreenCloseToTheLamp) {
+    SceneBuilder builder;
+    builder.box({-1, -1, 0}, {1, 1, 1.5}, Facing::inwards);
+    builder.polygon(lamp_outline, builder.material(Spectrum(0.0f), radiance));
+    constexpr double gap = 0.001, overhang = 0.1;
+    const double z = 1.0 - gap;
+    builder.polygon({{-0.2, -0.2, z}, {0.2, -0.2, z}, {0.2, 0.2, z}, {-0.2, 0.2, z}});
+    const double whole = pi * 0.04 * 10.0;
+    for (const int samples : {16, 64})
+        for (const int level : {4, 6}) {
+            const Lit lit = shoot(builder, {.level = level, .samples = samples});
+            EXPECT_NEAR(arriving_flux(lit).x, whole, 1e-3 * whole);
+            // A point sends what leaves it lower than the board's edge, of which the square of the
+            // angle's sine is a share.
+            const double past = (arriving_flux(lit).x - arriving_flux(lit, 7).x) / whole;
+            EXPECT_LT(past, gap * gap / (overhang * overhang)) << samples << ", " << level;
+        }
+}
+
 TEST(DirectIrradiance, ABulbLightsTheBoxAroundIt) {
     SceneBuilder builder;
     builder.box({-1, -1, -1}, {1, 1, 1}, Facing::inwards);
