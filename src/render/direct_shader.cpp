@@ -110,7 +110,8 @@ void DirectShader::find_shadow_edges(const VertexGrid& grid, const Workers& work
 }
 
 Spectrum DirectShader::traced(const SurfacePoint& p) const {
-    Spectrum sum(0.0f);
+    ReflectedSum sum(p);
+    const bool is_matte = max_channel(p.brdf.diffuse) > 0.0f;
     for (std::size_t word = 0; word < shadow_edges_.words(); ++word) {
         const ShadowEdges::Word& edges = shadow_edges_.at(p.patch, word);
         for (std::uint64_t left = edges.seen | edges.doubtful; left != 0; left &= left - 1) {
@@ -118,13 +119,14 @@ Spectrum DirectShader::traced(const SurfacePoint& p) const {
             const std::size_t i = word * ShadowEdges::samples_a_word +
                                   static_cast<std::size_t>(std::countr_zero(left));
             use_sample(p, i, 1.0f, [&](const glm::vec3& in, const Spectrum& e, bool of_surface) {
-                const Spectrum here = reflected(p, in, e, of_surface);
-                if (!(max_channel(here) > 0.0f)) return;
-                if (!is_doubtful || sees(p, solution_.direct.samples[i])) sum += here;
+                // Rays that follow a sharp lobe meet surfaces themselves.
+                if (p.is_sharp && of_surface && !is_matte) return;
+                if (!is_doubtful || sees(p, solution_.direct.samples[i]))
+                    sum.add(in, e, of_surface);
             });
         }
     }
-    return sum;
+    return sum.total();
 }
 
 void DirectShader::prepare_stored(const VertexGrid* grid, const VertexStencils* stencils,

@@ -26,6 +26,10 @@ public:
 
     /// As reflected.
     void add(const glm::vec3& in, const Spectrum& irradiance, bool of_surface) {
+        if (!p_.has_lobe()) {
+            irradiance_of_matte_ += irradiance;
+            return;
+        }
         if (p_.is_sharp) {
             sum_ += reflected(p_, in, irradiance, of_surface);
             return;
@@ -37,7 +41,8 @@ public:
 
     [[nodiscard]] Spectrum total() {
         flush();
-        return sum_;
+        if (p_.has_lobe()) return sum_;
+        return irradiance_of_matte_ * evaluate_diffuse(p_.brdf, {0.0f, 0.0f, 1.0f}, p_.out);
     }
 
 private:
@@ -51,6 +56,7 @@ private:
     static constexpr std::size_t most = 16;
     const SurfacePoint& p_;
     Spectrum sum_{0.0f};
+    Spectrum irradiance_of_matte_{0.0f};  ///< reflected alike from everywhere
     std::array<glm::vec3, most> in_;
     std::array<Spectrum, most> irradiance_;
     std::size_t count_ = 0;
