@@ -3,7 +3,6 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
 namespace transillum {
@@ -78,23 +77,27 @@ private:
 
     /// Patches whose centre lies within two diameters of a disc as large as a sample's piece.
     void find_near() {
+        std::vector<glm::dvec3> centres(total_.size());
+        workers_.for_ranges(centres.size(), patches_at_a_time,
+                            [&](std::size_t begin, std::size_t end, int) {
+                                for (std::size_t p = begin; p < end; ++p)
+                                    centres[p] = leaf_centre(mesh_, patches_, leaf_of(p));
+                            });
         near_.resize(columns_.size());
         workers_.for_ranges(columns_.size(), 1, [&](std::size_t begin, std::size_t end, int) {
             for (std::size_t i = begin; i < end; ++i)
-                for (std::uint32_t p = 0; p < total_.size(); ++p)
-                    if (is_near(p, columns_[i])) near_[i].push_back(p);
+                for (std::uint32_t p = 0; p < centres.size(); ++p)
+                    if (is_near(centres[p], columns_[i])) near_[i].push_back(p);
         });
     }
 
-    [[nodiscard]] bool is_near(std::uint32_t patch, std::size_t column) const {
-        const std::uint32_t leaf = patches_.leaf_of_patch(patch);
-        const glm::dvec3 centre = leaf_centre(mesh_, patches_, leaf);
+    [[nodiscard]] bool is_near(const glm::dvec3& centre, std::size_t column) const {
         const auto [first, last] = light_.samples_of(column);
         for (std::size_t s = first; s < last; ++s) {
             const LightSample& sample = light_.samples[s];
             const glm::dvec3 way = sample.position - centre;
-            const double reach = 4.0 * std::sqrt(sample.area * std::numbers::inv_pi);
-            if (glm::dot(way, way) < reach * reach) return true;
+            const double squared_radius = sample.area * std::numbers::inv_pi;
+            if (glm::dot(way, way) < 16.0 * squared_radius) return true;
         }
         return false;
     }
@@ -125,9 +128,11 @@ private:
                 if (elsewhere[i] > 0.0) light_.scale(p, columns_[i], 1.0 + cut[i] / elsewhere[i]);
     }
 
+    [[nodiscard]] std::uint32_t leaf_of(std::size_t patch) const {
+        return patches_.leaf_of_patch(static_cast<std::uint32_t>(patch));
+    }
     [[nodiscard]] double area_of(std::size_t patch) const {
-        return area_of_leaf(mesh_, patches_,
-                            patches_.leaf_of_patch(static_cast<std::uint32_t>(patch)));
+        return area_of_leaf(mesh_, patches_, leaf_of(patch));
     }
 
     const SurfaceMesh& mesh_;
