@@ -55,7 +55,9 @@ Image render_variant(const Variant& v, std::uint64_t directions, const Solution&
     options.height = view.height;
     options.monte_carlo = v.shown;
     options.direct = v.direct;
-    options.iterations = v.shown == MonteCarloShading::off ? 1 : static_cast<int>(directions);
+    const bool shows_bundles =
+        v.shown == MonteCarloShading::subpatch || v.shown == MonteCarloShading::wavefront;
+    if (shows_bundles) options.iterations = static_cast<int>(directions);
     options.seed = solution.seed;
     return render_solution(solution, camera_of(view, solution.cameras, solution.surface), options,
                            workers, silent);
