@@ -34,7 +34,8 @@ public:
         for (int round = 0;; ++round) {
             add_up();
             std::vector<double> cut = cut_off();
-            if (cut.empty() || round == most_rounds) return;
+            if (cut.empty()) return;
+            if (round == most_rounds) return spread_everywhere(cut);
             spread(cut);
         }
     }
@@ -102,18 +103,22 @@ private:
         return false;
     }
 
-    /// Evenly. \returns false where there is no room
+    /// Evenly over what the column's samples see. \returns false where there is no room
     bool spread_near(std::size_t i, double cut) {
+        const std::size_t c = columns_[i];
         const auto has_room = [&](std::uint32_t p) {
-            return !is_full_[p] && light_.share(p, columns_[i]) > 0.0;
+            return !is_full_[p] && light_.share(p, c) > 0.0;
+        };
+        const auto visibility = [&](std::uint32_t p) {
+            return light_.has_vectors() ? 1.0 : double{light_.visibility[p * light_.columns() + c]};
         };
         double area = 0.0;
         for (const std::uint32_t p : near_[i])
-            if (has_room(p)) area += area_of(p);
+            if (has_room(p)) area += area_of(p) * visibility(p);
         if (!(area > 0.0)) return false;
         for (const std::uint32_t p : near_[i])
             if (has_room(p))
-                light_.scale(p, columns_[i], 1.0 + cut / area / light_.share(p, columns_[i]));
+                light_.scale(p, c, 1.0 + cut / area * visibility(p) / light_.share(p, c));
         return true;
     }
 

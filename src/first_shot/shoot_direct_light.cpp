@@ -5,6 +5,7 @@
 #include <transillum/first_shot/shoot_direct_light.h>
 #include <transillum/visibility/hemicube.h>
 #include <transillum/visibility/parallel_view.h>
+#include <transillum/visibility/transillumination_buffer.h>
 
 #include <algorithm>
 #include <cmath>
@@ -19,6 +20,10 @@ namespace {
 
 /// Pixels across the parallel projection of a directional light, to one along a hemicube's edge.
 constexpr int parallel_resolution = 4, largest_parallel_resolution = 4096;
+
+int across_parallel_view(int hemicube_resolution) {
+    return std::min(parallel_resolution * hemicube_resolution, largest_parallel_resolution);
+}
 
 /// About the sample's normal, turned by a number that depends on the seed and the sample alone.
 glm::dmat3 turned_frame(const LightSample& sample, Random& random) {
@@ -36,6 +41,8 @@ public:
         light_.samples = luminaires.samples;
         light_.shot_sides = luminaires.shot_sides;
         light_.first_samples = luminaires.first_samples;
+        light_.view_pixel = 2.0 / resolution;
+        light_.parallel_pixel = pixel_size_for(mesh, across_parallel_view(resolution));
         if (light_.has_vectors()) {
             vectors_.emplace(mesh, patches, light_);
             return;
@@ -67,9 +74,9 @@ public:
         std::unique_ptr<ParallelView> view;
         for (std::size_t i = 0; i < light_.samples.size() && !monitor.stop_requested(); ++i) {
             if (!is_directional(i)) continue;
-            const int pixels =
-                std::min(parallel_resolution * resolution_, largest_parallel_resolution);
-            if (!view) view = std::make_unique<ParallelView>(mesh_, patches_, pixels);
+            if (!view)
+                view = std::make_unique<ParallelView>(mesh_, patches_,
+                                                      across_parallel_view(resolution_));
             Random random(luminaires_.seed, i);
             Bundle bundle{turned_frame(light_.samples[i], random)};
             bundle.offset_x = random.next();

@@ -30,6 +30,11 @@ bool is_of_surface(const LightSample& light) {
     return light.kind == LightSample::Kind::area;
 }
 
+bool reflects(const SurfacePoint& p, const glm::vec3& in, const Spectrum& irradiance,
+              bool of_surface) {
+    return max_channel(reflected(p, in, irradiance, of_surface)) > 0.0f;
+}
+
 auto add_to(ReflectedSum& sum) {
     return [&sum](const glm::vec3& in, const Spectrum& irradiance, bool of_surface) {
         sum.add(in, irradiance, of_surface);
@@ -105,13 +110,12 @@ void DirectShader::use_sample(const SurfacePoint& p, std::size_t sample, float s
 }
 
 void DirectShader::find_shadow_edges(const VertexGrid& grid, const Workers& workers) {
-    if (!solution_.direct.has_vectors())
-        shadow_edges_ = ShadowEdges(solution_.direct, solution_.patches, grid, workers);
+    if (!solution_.direct.has_vectors()) shadow_edges_ = ShadowEdges(solution_, grid, workers);
 }
 
 Spectrum DirectShader::traced(const SurfacePoint& p) const {
     ReflectedSum sum(p);
-    const bool is_matte = max_channel(p.brdf.diffuse) > 0.0f;
+    const bool has_diffuse = max_channel(p.brdf.diffuse) > 0.0f;
     for (std::size_t word = 0; word < shadow_edges_.words(); ++word) {
         const ShadowEdges::Word& edges = shadow_edges_.at(p.patch, word);
         for (std::uint64_t left = edges.seen | edges.doubtful; left != 0; left &= left - 1) {
@@ -119,10 +123,11 @@ Spectrum DirectShader::traced(const SurfacePoint& p) const {
             const std::size_t i = word * ShadowEdges::samples_a_word +
                                   static_cast<std::size_t>(std::countr_zero(left));
             use_sample(p, i, 1.0f, [&](const glm::vec3& in, const Spectrum& e, bool of_surface) {
-                // Rays that follow a sharp lobe meet surfaces themselves.
-                if (p.is_sharp && of_surface && !is_matte) return;
-                if (!is_doubtful || sees(p, solution_.direct.samples[i]))
-                    sum.add(in, e, of_surface);
+                // No ray for what isn't reflected.
+                if (is_doubtful && ((!has_diffuse && !reflects(p, in, e, of_surface)) ||
+                                    !sees(p, solution_.direct.samples[i])))
+                    return;
+                sum.add(in, e, of_surface);
             });
         }
     }

@@ -31,10 +31,8 @@ public:
 
     /// Shadow rays decide which light samples are seen, where that is in doubt.
     [[nodiscard]] Spectrum traced(const SurfacePoint& p) const;
-    /// Mean share of the light samples that are in doubt.
-    [[nodiscard]] double doubtful_share() const {
-        return shadow_edges_.doubtful_share(solution_.direct.samples.size());
-    }
+    /// Of the light samples that light a patch, or may, those that are in doubt.
+    [[nodiscard]] double doubtful_share() const { return shadow_edges_.doubtful_share(); }
     /// What the solution holds: visibilities of the light samples, or light vectors.
     /// \pre p has a side
     [[nodiscard]] Spectrum stored(const SurfacePoint& p) const;

@@ -24,7 +24,7 @@ public:
     /// Keeps a reference.
     explicit ReflectedSum(const SurfacePoint& p) : p_(p) {}
 
-    /// As reflected.
+    /// As reflected. \pre in.z > 0
     void add(const glm::vec3& in, const Spectrum& irradiance, bool of_surface) {
         if (!p_.has_lobe()) {
             irradiance_of_matte_ += irradiance;

@@ -270,10 +270,10 @@ SolutionRenderer::SolutionRenderer(const Solution& solution, const RenderOptions
       shader_(std::make_unique<SolutionShader>(solution, options_, workers)),
       gather_(make_gather(solution, *shader_, options_, workers)) {
     if (options_.components.direct && options_.direct == DirectShading::traced &&
-        !solution.direct.samples.empty())
+        solution.direct.columns() > 0 && !solution.direct.has_vectors())
         monitor.note(
-            fmt::format("shadow rays to {:.2g} % of the light samples: patches and those "
-                        "about them see the others wholly or not at all",
+            fmt::format("shadow rays to {:.1f} % of the light samples that patches face: "
+                        "the others are seen wholly there, and all around",
                         100.0 * shader_->direct().doubtful_share()));
 }
 

@@ -4,7 +4,7 @@
 
 #include "render/vertex_grid.h"
 
-#include <transillum/first_shot/direct_light.h>
+#include <transillum/solution/solution.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -17,11 +17,11 @@ public:
     ShadowEdges() = default;
     /// Nothing is known: every sample is doubtful to every patch.
     explicit ShadowEdges(const DirectLight& light);
-    /// From visibilities that the first shot found. An edge within a pixel of its views may have
-    /// been missed by a patch, which is why its neighbours are asked, too.
-    /// \pre light holds samples, not light vectors
-    ShadowEdges(const DirectLight& light, const PatchHierarchy& patches, const VertexGrid& grid,
-                const Workers& workers);
+    /// From visibilities that the first shot found. Patches that share a vertex within a shading
+    /// fan are asked together: the first shot may have missed an edge within a pixel of its views.
+    /// What a patch saw through fewer than two of those is doubtful.
+    /// \pre the solution holds samples, not light vectors
+    ShadowEdges(const Solution& solution, const VertexGrid& grid, const Workers& workers);
 
     /// A bit a sample: the lowest of word 0 is sample 0.
     static constexpr std::size_t samples_a_word = 64;
@@ -33,8 +33,8 @@ public:
     [[nodiscard]] const Word& at(std::uint32_t patch, std::size_t word) const {
         return of_patches_[patch * row_size_ + word];
     }
-    /// Mean over patches of the share of samples that are doubtful.
-    [[nodiscard]] double doubtful_share(std::size_t samples) const;
+    /// Of the samples that light a patch, or may, all patches together. 0 where none does.
+    [[nodiscard]] double doubtful_share() const;
 
 private:
     std::size_t words_ = 0;

@@ -40,9 +40,13 @@ SolutionShader::SolutionShader(const Solution& solution, const RenderOptions& op
     const bool stored_direct = c.direct && options.direct == DirectShading::stored;
     if (has_glossy && (stored_direct || monte_carlo))
         direct_.prepare_stored(grid, &glossy_.stencils(), workers);
-    if (c.direct && options.direct == DirectShading::traced)
-        direct_.find_shadow_edges(
-            grid ? grid_ : build_vertex_grid(solution.surface, solution.patches), workers);
+    if (c.direct && options.direct == DirectShading::traced) {
+        if (grid)
+            direct_.find_shadow_edges(*grid, workers);
+        else
+            direct_.find_shadow_edges(build_vertex_grid(solution.surface, solution.patches),
+                                      workers);
+    }
     shown_lambert_ = LambertField(solution, grid, {stored_direct, c.finite_element}, workers);
     shown_ = {c.emission, c.direct, c.finite_element, monte_carlo, options.direct, &shown_lambert_};
     if (monte_carlo) whole_lambert_ = LambertField(solution, grid, {}, workers);

@@ -269,6 +269,8 @@ void check_direct(const DirectLight& direct, std::size_t roots, std::size_t patc
         if (sample.kind != LightSample::Kind::area)
             check_index(sample.light, lights, what / "light");
     }
+    check_number(direct.view_pixel, 0.0, infinity, "pixel of the first shot's views");
+    check_number(direct.parallel_pixel, 0.0, infinity, "pixel of directional lights' views");
     check_light_vectors(direct, patches);
     const std::size_t entries = direct.has_vectors() ? 0 : patches * direct.samples.size();
     check_table(direct.geometry_factor, entries, infinity, "geometry factor, entry");

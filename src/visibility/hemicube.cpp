@@ -323,7 +323,7 @@ PatchView Hemicube::view_of_missed(std::uint32_t patch) const {
     const double facing =
         glm::dot(d, normal_of(mesh_, root)) * (patches_.is_back(patch) ? 1.0 : -1.0);
     const double least = rounding * (glm::length(position_) + distance);
-    if (up <= least || facing <= least) return {};
+    if (up <= (distribution_ ? 0.0 : least) || facing <= least) return {};
     for (std::size_t i = 0; i < faces_.size(); ++i) {
         const Face& face = faces_[i];
         const double forward = glm::dot(d, face.forward);

@@ -58,6 +58,10 @@ struct DirectLight {
     /// iteration leaves it out.
     std::vector<std::uint8_t> shot_sides;
 
+    /// Edge of a pixel of the views that found the visibility, 0 where that is unknown: at distance
+    /// 1, and of directional lights' [scene units].
+    double view_pixel = 0.0, parallel_pixel = 0.0;
+
     [[nodiscard]] bool has_vectors() const { return !first_samples.empty(); }
     [[nodiscard]] std::size_t columns() const {
         return has_vectors() ? first_samples.size() : samples.size();

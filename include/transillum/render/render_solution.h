@@ -14,7 +14,9 @@ namespace transillum {
 
 enum class DirectShading {
     stored,  ///< the patches' stored incoming radiance, interpolated like the finite elements
-    traced,  ///< shadow rays to the light samples, where patches see them in part, or neighbours do
+    /// Shadow rays to the light samples where a patch and those about it don't agree that they are
+    /// seen, or hidden; everywhere, where light vectors are stored.
+    traced,
     traced_everywhere  ///< shadow rays to all of them from every point
 };
 

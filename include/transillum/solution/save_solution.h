@@ -26,7 +26,7 @@
 
 namespace transillum {
 
-inline constexpr int solution_format_version = 2;
+inline constexpr int solution_format_version = 3;
 
 /// Facts of one run, kept beside the solution because they are no part of it.
 struct RunRecord {

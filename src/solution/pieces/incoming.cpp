@@ -47,6 +47,8 @@ PolyData incoming_piece(const Solution& solution, const Patches& stored) {
         add_rows(cells, "LightVector", direct.vectors, columns, stored);
         return piece;
     }
+    add_value(*piece->GetFieldData(), "ViewPixel", direct.view_pixel);
+    add_value(*piece->GetFieldData(), "ParallelPixel", direct.parallel_pixel);
     add_rows(cells, "GeometryFactor", direct.geometry_factor, columns, stored);
     add_rows(cells, "Visibility", direct.visibility, columns, stored);
     return piece;
@@ -64,6 +66,8 @@ void read_incoming_piece(vtkPolyData& piece, const Path& file, Solution& solutio
         direct.vectors = read_rows<glm::vec3>(reader, "LightVector", columns, stored, rows);
         return;
     }
+    direct.view_pixel = fields.read_value<double>("ViewPixel");
+    direct.parallel_pixel = fields.read_value<double>("ParallelPixel");
     direct.geometry_factor = read_rows<float>(reader, "GeometryFactor", columns, stored, rows);
     direct.visibility = read_rows<float>(reader, "Visibility", columns, stored, rows);
 }

@@ -170,6 +170,10 @@ void add_lights(Dice& dice, const Shape& shape, Solution& solution) {
             solution.direct.first_samples.push_back(static_cast<std::uint32_t>(i));
         solution.direct.samples.push_back(sample);
     }
+    if (shape.light_samples > 0 && !shape.light_vectors) {
+        solution.direct.view_pixel = dice.number();
+        solution.direct.parallel_pixel = dice.number();
+    }
     for (std::size_t i = 0; i < 2 * roots && shape.light_samples > 0; ++i) {
         solution.direct.shot_sides.push_back(static_cast<std::uint8_t>(dice.below(2)));
     }
@@ -309,7 +313,10 @@ void expect_equal(const SurfaceMesh& a, const SurfaceMesh& b) {
 }
 
 void expect_equal(const DirectLight& a, const DirectLight& b) {
-    const auto& [samples, first_samples, vectors, geometry_factor, visibility, shot_sides] = a;
+    const auto& [samples, first_samples, vectors, geometry_factor, visibility, shot_sides,
+                 view_pixel, parallel_pixel] = a;
+    EXPECT_EQ(view_pixel, b.view_pixel);
+    EXPECT_EQ(parallel_pixel, b.parallel_pixel);
     EXPECT_EQ(first_samples, b.first_samples);
     EXPECT_EQ(vectors, b.vectors);
     expect_equal_structs(samples, b.samples);

@@ -193,6 +193,9 @@ TEST(Hemicube, APointOnASlantedPlaneDoesNotSeeIt) {
                 hemicube.look(point, turned_frame(normal_of(model.mesh, 0), random));
             for (const bool back : {false, true})
                 EXPECT_EQ(model.solid_angle(views, 0, back, true), 0.0) << "away " << away;
+            EXPECT_GT(
+                model.solid_angle(views, 1, false, true) + model.solid_angle(views, 1, true, true),
+                0.0);
         }
 }
 
