@@ -181,7 +181,7 @@ TEST(Hemicube, APointOnASlantedPlaneDoesNotSeeIt) {
             SceneBuilder builder;
             builder.polygon({o + f[0], o - 0.5 * f[0] + 0.8 * f[1], o - 0.5 * f[0] - 0.8 * f[1]});
             builder.polygon(
-                {o + 10.0 * f[2], o + 10.0 * f[2] + 0.1 * f[1], o + 10.0 * f[2] + 0.1 * f[0]});
+                {o + 10.0 * f[2], o + 10.0 * f[2] + 4.0 * f[1], o + 10.0 * f[2] + 4.0 * f[0]});
             const Model model(builder, 1);
             Hemicube hemicube(model.mesh, model.patches, 64);
             const auto& v = model.mesh.triangles[0].vertices;
