@@ -104,20 +104,30 @@ void FiniteElementComponent::restart() {
     blocks_ = 0;
 }
 
+PatchSums FiniteElementComponent::with_earlier(std::uint32_t patch) const {
+    PatchSums s = sums_[patch];
+    if (earlier_.empty()) return s;
+    const PatchSums& e = earlier_[patch];
+    s.received += e.received;
+    s.coverage += e.coverage;
+    s.received_squared += e.received_squared;
+    s.received_coverage += e.received_coverage;
+    s.coverage_squared += e.coverage_squared;
+    return s;
+}
+
+int FiniteElementComponent::blocks_with_earlier() const {
+    if (earlier_.empty()) return blocks_;
+    return earlier_blocks_ > 0 ? blocks_ + earlier_blocks_ : 0;
+}
+
 void FiniteElementComponent::recall() {
     if (earlier_.empty()) return;
     workers_.for_ranges(earlier_.size(), grain, [&](std::size_t begin, std::size_t end, int) {
-        for (std::size_t p = begin; p < end; ++p) {
-            PatchSums& s = sums_[p];
-            const PatchSums& e = earlier_[p];
-            s.received += e.received;
-            s.coverage += e.coverage;
-            s.received_squared += e.received_squared;
-            s.received_coverage += e.received_coverage;
-            s.coverage_squared += e.coverage_squared;
-        }
+        for (std::size_t p = begin; p < end; ++p)
+            sums_[p] = with_earlier(static_cast<std::uint32_t>(p));
     });
-    blocks_ = earlier_blocks_ > 0 ? blocks_ + earlier_blocks_ : 0;
+    blocks_ = blocks_with_earlier();
     glossy_.recall();
     forget();
 }
@@ -156,16 +166,17 @@ void FiniteElementComponent::set_incoming(std::uint32_t patch, const SpectrumSum
 }
 
 SpectrumSum FiniteElementComponent::incoming_variance(std::uint32_t patch) const {
-    const PatchSums& s = sums_[patch];
+    const PatchSums s = with_earlier(patch);
+    const int blocks = blocks_with_earlier();
     const bool is_told = s.coverage * s.coverage >= least_equal_blocks * s.coverage_squared;
-    if (blocks_ < least_blocks_for_error || s.coverage == 0.0 || !is_told)
+    if (blocks < least_blocks_for_error || s.coverage == 0.0 || !is_told)
         return SpectrumSum(std::numeric_limits<double>::quiet_NaN());
     // Linearised variance of a ratio of sums: sum of (w C)^2 (x_b - x)^2 over (sum of w C)^2.
-    const SpectrumSum x = ratio(patch);
+    const SpectrumSum x = s.received / s.coverage;
     const SpectrumSum spread =
         s.received_squared - 2.0 * x * s.received_coverage + x * x * s.coverage_squared;
     return glm::max(spread, SpectrumSum(0.0)) / (s.coverage * s.coverage) *
-           (blocks_ / (blocks_ - 1.0));
+           (blocks / (blocks - 1.0));
 }
 
 SpectrumSum FiniteElementComponent::reflected(std::uint32_t patch) const {

@@ -107,10 +107,9 @@ public:
     }
     void scale_incoming(std::uint32_t patch, const SpectrumSum& factor);
     void set_incoming(std::uint32_t patch, const SpectrumSum& incoming);
-    /// Since the average was begun.
-    [[nodiscard]] int blocks() const { return blocks_; }
-    /// Squared standard error of `incoming`, from the spread of the blocks; NaN for fewer
-    /// than 4, or where hardly more than one met the patch.
+    /// Squared standard error of `incoming`, from the spread of the blocks, those that the last
+    /// restart set aside with them; NaN for fewer than 4, or where hardly more than one met the
+    /// patch.
     [[nodiscard]] SpectrumSum incoming_variance(std::uint32_t patch) const;
 
     /// Mean radiance that a patch reflects of `incoming`, weighted with the cosine.
@@ -138,6 +137,9 @@ public:
 
 private:
     [[nodiscard]] SpectrumSum ratio(std::uint32_t patch) const;
+    /// As recall() would make them.
+    [[nodiscard]] PatchSums with_earlier(std::uint32_t patch) const;
+    [[nodiscard]] int blocks_with_earlier() const;
 
     const SurfaceMesh& mesh_;
     const PatchHierarchy& patches_;

@@ -27,8 +27,9 @@ namespace transillum {
 
 namespace {
 
-/// The estimate is off by some 15 %, and runs tend to stop where it is low.
-constexpr double margin_of_target = 1.25;
+/// Runs look at the estimate again and again, and stop where it is low: by so many of its own
+/// standard errors it has to be below the target.
+constexpr double margin_of_target = 2.0;
 /// Longer blocks would leave the fixed-point sums too few bits.
 constexpr std::uint64_t longest_block = 1024;
 
@@ -135,8 +136,13 @@ private:
         if (monitor_.stop_requested()) return interrupted_ = true;
         const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
         return (options_.seconds > 0.0 && elapsed.count() >= options_.seconds) ||
-               (options_.target_error > 0.0 &&
-                margin_of_target * average_.relative_error() <= options_.target_error);
+               (options_.target_error > 0.0 && error_with_margin() <= options_.target_error);
+    }
+
+    /// NaN where unknown.
+    double error_with_margin() const {
+        return average_.relative_error() *
+               (1.0 + margin_of_target * average_.relative_error_uncertainty());
     }
 
     /// As they were before this block, of which so many directions are done.

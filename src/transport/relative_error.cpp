@@ -105,8 +105,14 @@ void ErrorEstimate::restart() {
     now_.parts.clear();
 }
 
+std::vector<DirectionPart> ErrorHistory::concluded() const {
+    std::vector<DirectionPart> all = earlier;
+    all.insert(all.end(), parts.begin(), parts.end());
+    return all;
+}
+
 void ErrorEstimate::recall() {
-    now_.parts.insert(now_.parts.begin(), now_.earlier.begin(), now_.earlier.end());
+    now_.parts = now_.concluded();
     now_.earlier.clear();
 }
 
@@ -154,7 +160,7 @@ void ErrorEstimate::begin_anew(const FiniteElementComponent& component) {
 
 double ErrorEstimate::variance() const {
     if (now_.moves.empty() || now_.parts.empty()) return quiet_nan();
-    const std::vector<DirectionPart> parts = with_sum(now_.parts, 1.0);
+    const std::vector<DirectionPart> parts = with_sum(now_.concluded(), 1.0);
     // Parts that are no nets, at the end of a run, may seem to do better than all together could.
     const double net = std::pow(static_cast<double>(parts.back().end), -2.0 * now_.model.a);
     return now_.model.c * std::max(net, variance_of_parts(parts, now_.model.a));
@@ -191,6 +197,10 @@ double ErrorEstimate::relative_error(const FiniteElementComponent& component) co
     // Of a patch that hardly any direction has met nothing is known: an error as large as the mean.
     const double mean = all.mean / all.seen;
     return std::sqrt((all.told * variance() + (all.all - all.told) * mean * mean) / all.all) / mean;
+}
+
+double ErrorEstimate::uncertainty() const {
+    return 0.5 * spread_of_moves / std::sqrt(static_cast<double>(now_.moves.size()));
 }
 
 double ErrorEstimate::correction(const FiniteElementComponent& component) const {

@@ -48,6 +48,9 @@ struct ErrorHistory {
     ErrorModel model;
     std::vector<DirectionPart> earlier;  ///< set aside by the last restart
     bool jumps = false;  ///< the next or only move is larger than the error alone makes it
+
+    /// Parts with those set aside, which a run that ends now recalls.
+    [[nodiscard]] std::vector<DirectionPart> concluded() const;
 };
 
 class ErrorEstimate {
@@ -73,8 +76,10 @@ public:
     void begin_anew(const FiniteElementComponent& component);
 
     /// Root mean square standard error over the mean, both weighted with area, of the luminance
-    /// that arrives where it is reflected; NaN where nothing is known.
+    /// that arrives where it is reflected, if the run ended now; NaN where nothing is known.
     [[nodiscard]] double relative_error(const FiniteElementComponent& component) const;
+    /// Relative standard error of that, by how many moves it is told from.
+    [[nodiscard]] double uncertainty() const;
     /// What the squared standard errors of patches, from the spread of blocks, must be multiplied
     /// with to agree with that.
     [[nodiscard]] double correction(const FiniteElementComponent& component) const;

@@ -58,6 +58,8 @@ public:
 
     /// Of the irradiance; NaN where unknown.
     [[nodiscard]] double relative_error() const { return relative_error_; }
+    /// Its own relative standard error.
+    [[nodiscard]] double relative_error_uncertainty() const { return error_.uncertainty(); }
     void estimate_relative_error() { relative_error_ = error_.relative_error(elements_); }
     /// See ErrorEstimate.
     [[nodiscard]] double correction() const { return error_.correction(elements_); }

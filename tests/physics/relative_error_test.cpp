@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <numbers>
 
 namespace {
@@ -87,6 +88,29 @@ TEST(TargetError, IsMetWhereARunStops) {
             within += relative_difference(run, values_of(result), truth) <= target ? 1 : 0;
         }
         EXPECT_GE(within, 9) << c.name;
+    }
+}
+
+/// Notes the error told after every direction.
+class ErrorsTold : public Monitor {
+public:
+    void progress(const Progress& p) override { told[p.done] = p.error; }
+    std::map<std::uint64_t, double> told;
+};
+
+// In the octave after a restart as elsewhere: up to the next block's end, a run tells the error
+// that it would have if it had stopped at the last one's.
+TEST(RelativeError, IsToldOfARunThatEndsThere) {
+    const TransportRun run = prepare_transport(cube_scene(0.5f, 1.0f, 0.0f), {.leaves = 500});
+    ErrorsTold errors;
+    IterationOptions options;
+    options.iterations = 256;
+    options.pixel_size = pixel_size_for(run.surface, 200);
+    options.seed = 1;
+    (void)iterate(run.surface, run.patches, run.sources, options, Workers(2), errors);
+    for (const std::uint64_t directions : {64, 80, 96, 112, 128, 160}) {
+        const double there = iterate_to(run, directions, 1).relative_error;
+        EXPECT_NEAR(errors.told.at(directions + 1), there, 0.03 * there) << directions;
     }
 }
 
