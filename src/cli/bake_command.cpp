@@ -66,8 +66,9 @@ void add_options(CLI::App& command, BakeArguments& a) {
         ->capture_default_str()
         ->group(stopping);
     command
-        .add_option("--target-error", iteration.target_error,
-                    "relative error, as 0.01; 0: none. The estimate is held below it by a fifth")
+        .add_option(
+            "--target-error", iteration.target_error,
+            "relative error, as 0.01; 0: none. The estimate is held below it by a sixth or more")
         ->check(within(0.0, 1.0))
         ->capture_default_str()
         ->group(stopping);
@@ -224,7 +225,7 @@ private:
 };
 
 int run(BakeArguments& a, const Common& common) {
-    Console console(common.quiet);
+    Console console(common);
     if (!a.output.ends_with(".vtm"))
         throw UsageError("--output " + a.output + "; accepted: a name that ends in .vtm");
     if (a.bake.resolution > 0 && a.bake.resolution < 16)
@@ -291,6 +292,10 @@ void add_bake(CLI::App& program, const Common& common, int& exit_code) {
     CLI::App* command =
         program.add_subcommand("bake", "Compute the global illumination of a scene and store it");
     add_options(*command, *arguments);
+    command->footer(
+        "Examples:\n"
+        "  transillum bake room.gltf -o room.vtm\n"
+        "  transillum bake room.obj -o room.vtm --repair full --target-error 0.02 --refine 3");
     command->callback([arguments, &common, &exit_code] { exit_code = run(*arguments, common); });
 }
 

@@ -56,12 +56,16 @@ void add_image_options(CLI::App& command, ImageOptions& options) {
         ->allow_extra_args(false)
         ->required()
         ->group("Output");
-    command.add_option("--exposure", options.tone.exposure, "brighten the PNG by so many stops")
+    add_tone_options(command, options.tone, "the PNG");
+}
+
+void add_tone_options(CLI::App& command, ToneMapping& tone, const std::string& what) {
+    command.add_option("--exposure", tone.exposure, "brighten " + what + " by so many stops")
         ->check(within(-100.0, 100.0))
         ->capture_default_str()
         ->group("Output");
     command
-        .add_flag("!--no-auto-exposure", options.tone.automatic,
+        .add_flag("!--no-auto-exposure", tone.automatic,
                   "a radiance of 1 is white (default: middle grey is the median)")
         ->group("Output");
 }

@@ -37,6 +37,8 @@ struct SamplingOptions {
 
 void add_camera_options(CLI::App& command, CameraOptions& options);
 void add_image_options(CLI::App& command, ImageOptions& options);
+/// \param what is brightened
+void add_tone_options(CLI::App& command, ToneMapping& tone, const std::string& what);
 /// --samples, --seed, --threads.
 void add_sampling_options(CLI::App& command, const SamplingOptions& options);
 

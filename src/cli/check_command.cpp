@@ -148,7 +148,7 @@ int run(const CheckArguments& a, const Common& common) {
     }
     if (!a.vtk.empty() && a.vtk == a.leak_path)
         throw UsageError("--vtk and --leak-path " + a.vtk + "; accepted: two files");
-    Console console(common.quiet);
+    Console console(common);
     CheckOptions options = a.check;
     options.leaks = !a.no_leaks;
     const Scene scene = load_scene(a.mesh.scene, a.load, console);
@@ -197,6 +197,10 @@ void add_check(CLI::App& program, const Common& common, int& exit_code) {
     command->footer(
         "Exit codes: 0 nothing harmful, 3 something harmful or a bad scene, others as "
         "of the program.");
+    command->footer(
+        "Examples:\n"
+        "  transillum check room.obj\n"
+        "  transillum check room.obj --vtk defects.vtp --leak-path leaks.vtp");
     command->callback([a, &common, &exit_code] { exit_code = run(*a, common); });
 }
 

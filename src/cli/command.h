@@ -16,10 +16,21 @@ enum ExitCode {
     interrupted = 130
 };
 
+enum class ProgressStyle {
+    automatic,  ///< a bar on a terminal, else plain
+    bar,
+    plain,  ///< a line every few seconds
+    json,   ///< the same as JSON, and messages, too: an object a line
+    none
+};
+
 /// Options every subcommand shares.
 struct Common {
     std::string command_line;  ///< as given, for the record
     bool quiet = false;        ///< no progress and no notes
+    bool verbose = false;      ///< how long phases took
+    ProgressStyle progress = ProgressStyle::automatic;
+    std::string log_file;  ///< empty: none
 };
 
 // Each sets `exit_code` when its subcommand was run.
@@ -31,8 +42,11 @@ void add_render(CLI::App& program, const Common& common, int& exit_code);
 void add_info(CLI::App& program, const Common& common, int& exit_code);
 void add_repair(CLI::App& program, const Common& common, int& exit_code);
 void add_check(CLI::App& program, const Common& common, int& exit_code);
+void add_export(CLI::App& program, const Common& common, int& exit_code);
 void add_compare(CLI::App& program, const Common& common, int& exit_code);
 void add_reference(CLI::App& program, const Common& common, int& exit_code);
 void add_subdivide(CLI::App& program, const Common& common, int& exit_code);
+void add_manual(CLI::App& program, const Common& common, int& exit_code);
+void add_completion(CLI::App& program, const Common& common, int& exit_code);
 
 }  // namespace transillum::cli

@@ -77,6 +77,9 @@ void add_compare(CLI::App& program, const Common&, int& exit_code) {
                      "exit with 1 when bias or relative RMSE is larger, as 0.03")
         ->check(not_negative());
     command->add_flag("--json", a->json, "machine-readable");
+    command->footer(
+        "Example:\n"
+        "  transillum compare room.exr reference.exr --fail-above 0.05");
     command->callback([a, &exit_code] { exit_code = run(*a); });
 }
 

@@ -1,17 +1,22 @@
 #include "cli/console.h"
 
-#include <fmt/format.h>
-#include <spdlog/sinks/stdout_sinks.h>
-#include <spdlog/spdlog.h>
+#include "cli/log_file.h"
 
+#include <fmt/format.h>
+
+#include <sys/ioctl.h>
 #include <unistd.h>
 #include <atomic>
-#include <cmath>
 #include <csignal>
+#include <cstdio>
 
 namespace transillum::cli {
 
 namespace {
+
+constexpr int usual_width = 80;
+constexpr std::chrono::milliseconds between_bars{100};
+constexpr std::chrono::seconds between_lines{5};
 
 std::atomic<bool> stop{false};
 
@@ -20,68 +25,84 @@ void on_interrupt(int) {
     std::signal(SIGINT, SIG_DFL);
 }
 
-std::string duration(double seconds) {
-    const auto s = static_cast<long>(std::lround(seconds));
-    return s < 3600 ? fmt::format("{}:{:02}", s / 60, s % 60)
-                    : fmt::format("{}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60);
+int terminal_width() {
+    winsize size{};
+    const bool known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1;
+    return known ? size.ws_col : usual_width;
 }
 
-std::shared_ptr<spdlog::logger> logger() {
-    auto log = spdlog::get("transillum");
-    if (!log) {
-        log = spdlog::stderr_logger_st("transillum");
-        log->set_pattern("%v");
-    }
-    return log;
+ProgressStyle style_of(const Common& common) {
+    if (common.quiet && common.progress != ProgressStyle::json) return ProgressStyle::none;
+    if (common.progress != ProgressStyle::automatic) return common.progress;
+    return isatty(STDERR_FILENO) ? ProgressStyle::bar : ProgressStyle::plain;
+}
+
+void print(const std::string& line) {
+    fmt::print(stderr, "{}\n", line);
+    std::fflush(stderr);
 }
 
 }  // namespace
 
-Console::Console(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0) {
+Console::Console(const Common& common) : common_(common), style_(style_of(common)) {
     std::signal(SIGINT, on_interrupt);
+    if (!common.log_file.empty()) open_log(common.log_file);
+    log("command", common.command_line);
+    if (common.verbose) say("detail", "transillum " TRANSILLUM_VERSION ": " + common.command_line);
 }
 
 Console::~Console() {
     end_progress();
+    const std::chrono::duration<double> all = Clock::now() - start_;
+    const std::string took = fmt::format("{:.2f} s in all", all.count());
+    log("end", took);
+    if (common_.verbose) say("detail", took);
 }
 
 void Console::progress(const Progress& p) {
-    if (quiet_) return;
     const auto now = Clock::now();
-    if (p.phase != phase_) {
+    if (last_ && last_->phase != p.phase) {
         end_progress();
-        phase_ = p.phase;
-        phase_start_ = now;
-        done_before_ = p.done > 0 ? p.done - 1 : 0;
-        last_shown_ = {};
+        last_shown_ = last_logged_ = {};
     }
-    const bool last = p.total > 0 && p.done >= p.total;
-    const auto pause = terminal_ ? std::chrono::milliseconds(100) : std::chrono::seconds(5);
-    if (!last && now - last_shown_ < pause) return;
+    last_ = meter_.read(p, std::chrono::duration<double>(now - start_).count());
+    if (last_->ends || now - last_logged_ >= between_lines) {
+        last_logged_ = now;
+        log("progress", plain_line(*last_));
+    }
+    if (style_ == ProgressStyle::none) return;
+    const bool is_frequent = style_ == ProgressStyle::bar;
+    if (!last_->ends && now - last_shown_ < (is_frequent ? between_bars : between_lines)) return;
     last_shown_ = now;
-    const double elapsed = std::chrono::duration<double>(now - phase_start_).count();
-    std::string line = fmt::format("{:<11} {:>6}", p.phase, p.done);
-    if (p.total > 0) line += fmt::format(" of {}", p.total);
-    if (std::isfinite(p.error)) line += fmt::format("  error {:.2f} %", 100.0 * p.error);
-    line += fmt::format("  elapsed {}", duration(elapsed));
-    if (p.total > p.done && p.done > done_before_)
-        line +=
-            fmt::format("  remaining {}", duration(elapsed * static_cast<double>(p.total - p.done) /
-                                                   static_cast<double>(p.done - done_before_)));
-    fmt::print(stderr, "{}{:<78}{}", terminal_ ? "\r" : "", line, terminal_ && !last ? "" : "\n");
+    show(*last_);
+}
+
+void Console::show(const ProgressReading& reading) {
+    if (style_ == ProgressStyle::json) return print(json_line(reading));
+    if (style_ == ProgressStyle::plain) return print(plain_line(reading));
+    // The last column stays free: a terminal may begin a new line after it.
+    const int width = terminal_width() - 1;
+    fmt::print(stderr, "\r{:<{}}", bar_line(reading, width), width);
+    line_open_ = !reading.ends;
+    if (reading.ends) fmt::print(stderr, "\n");
     std::fflush(stderr);
-    line_open_ = terminal_ && !last;
+}
+
+void Console::say(const char* event, const std::string& message) {
+    end_progress();
+    if (style_ == ProgressStyle::json) return print(json_message(event, message));
+    const std::string kind(event);
+    print(kind == "detail" ? message : kind + ": " + message);
 }
 
 void Console::warn(const std::string& message) {
-    end_progress();
-    logger()->warn("warning: {}", message);
+    log("warning", message);
+    say("warning", message);
 }
 
 void Console::note(const std::string& message) {
-    if (quiet_) return;
-    end_progress();
-    logger()->info("note: {}", message);
+    log("note", message);
+    if (!common_.quiet) say("note", message);
 }
 
 bool Console::stop_requested() const {
@@ -91,6 +112,11 @@ bool Console::stop_requested() const {
 void Console::end_progress() {
     if (line_open_) fmt::print(stderr, "\n");
     line_open_ = false;
+    if (!last_) return;
+    const std::string took = fmt::format("{}: {:.2f} s", last_->phase, last_->elapsed);
+    last_.reset();
+    log("detail", took);
+    if (common_.verbose) say("detail", took);
 }
 
 }  // namespace transillum::cli

@@ -1,35 +1,41 @@
-/// Progress and messages on stderr; the wish to stop from SIGINT.
+/// Progress and messages on stderr, and in a log file; the wish to stop from SIGINT.
 #pragma once
+
+#include "cli/command.h"
+#include "cli/progress_meter.h"
 
 #include <transillum/base/monitor.h>
 
 #include <chrono>
-#include <cstdint>
+#include <optional>
 #include <string>
 
 namespace transillum::cli {
 
+/// Takes over SIGINT: the first asks to stop, a second ends the program at once.
 class Console : public Monitor {
 public:
-    /// Takes over SIGINT: the first asks to stop, a second ends the program at once.
-    explicit Console(bool quiet);
+    explicit Console(const Common& common);
     ~Console() override;
     void progress(const Progress& p) override;
     void warn(const std::string& message) override;
     void note(const std::string& message) override;
     [[nodiscard]] bool stop_requested() const override;
-    /// Ends a line of progress that is still open.
+    /// Ends a line of progress that is still open, and the phase.
     void end_progress();
 
 private:
     using Clock = std::chrono::steady_clock;
 
-    bool quiet_;
-    bool terminal_;  ///< a line of progress can be rewritten
+    void show(const ProgressReading& reading);
+    void say(const char* event, const std::string& message);
+
+    const Common& common_;
+    ProgressStyle style_;
+    ProgressMeter meter_;
+    std::optional<ProgressReading> last_;  ///< of the phase at hand
+    Clock::time_point start_ = Clock::now(), last_shown_{}, last_logged_{};
     bool line_open_ = false;
-    std::string phase_;
-    Clock::time_point phase_start_ = Clock::now(), last_shown_{};
-    std::uint64_t done_before_ = 0;  ///< by earlier runs, which this one goes on from
 };
 
 }  // namespace transillum::cli

@@ -104,6 +104,9 @@ void add_info(CLI::App& program, const Common&, int& exit_code) {
         program.add_subcommand("info", "What a solution holds, how it was made and how good it is");
     command->add_option("SOLUTION", a->solution, "what bake wrote: NAME.vtm")->required();
     command->add_flag("--json", a->json, "machine-readable");
+    command->footer(
+        "Example:\n"
+        "  transillum info room.vtm");
     command->callback([a, &exit_code] {
         const Json json = describe(load_solution(a->solution), load_run_record(a->solution));
         if (a->json)

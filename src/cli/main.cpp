@@ -1,5 +1,7 @@
 // The program: parses, runs one subcommand, and alone prints errors and decides the exit code.
 #include "cli/command.h"
+#include "cli/log_file.h"
+#include "cli/scene_options.h"
 
 #include <transillum/base/error.h>
 
@@ -20,8 +22,31 @@ std::string join(int argc, char** argv) {
 }
 
 int fail(const char* what, int exit_code) {
+    log("error", what);
     std::fprintf(stderr, "transillum: %s\n", what);
     return exit_code;
+}
+
+void add_common_options(CLI::App& program, Common& common) {
+    const char* const group = "Messages (of every subcommand)";
+    auto* const quiet =
+        program.add_flag("-q,--quiet", common.quiet, "no progress and no notes")->group(group);
+    program.add_flag("-v,--verbose", common.verbose, "how long every phase took")
+        ->excludes(quiet)
+        ->group(group);
+    add_choice(program, "--progress", common.progress,
+               {{"auto", ProgressStyle::automatic},
+                {"bar", ProgressStyle::bar},
+                {"plain", ProgressStyle::plain},
+                {"json", ProgressStyle::json},
+                {"none", ProgressStyle::none}},
+               "on stderr; auto: a bar on a terminal, else a plain line every 5 s; json: an object "
+               "a line, messages, too")
+        ->group(group);
+    program
+        .add_option("--log-file", common.log_file,
+                    "append all that is told here, with the time, also of --quiet")
+        ->group(group);
 }
 
 /// What is wrong with the command line. An unknown option says more than the argument that it
@@ -46,20 +71,24 @@ int parse_and_run(int argc, char** argv) {
         "Exit codes: 0 done, 1 comparison failed, 2 usage, 3 bad input, 4 input/output, 130 "
         "interrupted.\n"
         "Data goes to stdout, progress and messages to stderr.");
-    Common common{join(argc, argv)};
-    program.add_flag("-q,--quiet", common.quiet, "no progress and no notes");
+    Common common;
+    common.command_line = join(argc, argv);
+    add_common_options(program, common);
     int exit_code = ExitCode::done;
     add_bake(program, common, exit_code);
     add_relight(program, common, exit_code);
     add_resume(program, common, exit_code);
     add_render(program, common, exit_code);
     add_walk(program, common, exit_code);
+    add_export(program, common, exit_code);
     add_info(program, common, exit_code);
     add_repair(program, common, exit_code);
     add_check(program, common, exit_code);
     add_compare(program, common, exit_code);
     add_reference(program, common, exit_code);
     add_subdivide(program, common, exit_code);
+    add_manual(program, common, exit_code);
+    add_completion(program, common, exit_code);
     try {
         program.parse(argc, argv);
     } catch (const CLI::Success& e) {

@@ -25,7 +25,7 @@ struct ReferenceArguments {
 };
 
 int run(ReferenceArguments& a, const Common& common) {
-    Console console(common.quiet);
+    Console console(common);
     require_writable(a.image);
     const auto [width, height] = parse_size(a.camera.size);
     a.path_trace.width = width;
@@ -63,6 +63,9 @@ void add_reference(CLI::App& program, const Common& common, int& exit_code) {
         ->group("Paths");
     add_sampling_options(*command, {a->path_trace.samples, 1 << 24, "paths a pixel",
                                     a->path_trace.seed, "of the paths", a->threads, "Paths"});
+    command->footer(
+        "Example:\n"
+        "  transillum reference room.gltf --size 200x200 --samples 256 -o reference.exr");
     command->callback([a, &common, &exit_code] { exit_code = run(*a, common); });
 }
 

@@ -43,7 +43,7 @@ Spectrum parse_factor(const std::string& argument) {
 }
 
 int run(const RelightArguments& a, const Common& common) {
-    Console console(common.quiet);
+    Console console(common);
     if (!a.output.ends_with(".vtm"))
         throw UsageError("--output " + a.output + "; accepted: a name that ends in .vtm");
     EmitterSolution solution = load_emitter_solution(a.solution);
@@ -75,6 +75,9 @@ void add_relight(CLI::App& program, const Common& common, int& exit_code) {
                      "NAME=FACTOR or NAME=RED,GREEN,BLUE: what to multiply an emitter by; NAME of "
                      "a material, a light, or environment; may be repeated")
         ->required();
+    command->footer(
+        "Example:\n"
+        "  transillum relight room.vtm --emitter lamp=0.5 -o dim.vtm");
     command->callback([a, &common, &exit_code] { exit_code = run(*a, common); });
 }
 

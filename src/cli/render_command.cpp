@@ -23,7 +23,7 @@ struct RenderArguments {
 };
 
 int run(const RenderArguments& a, const Common& common) {
-    Console console(common.quiet);
+    Console console(common);
     require_writable(a.image);
     const RenderOptions render = make_render_options(a.shading, parse_size(a.camera.size));
     const SpectralSolution solution = load_spectral_solution(a.solution);
@@ -43,6 +43,11 @@ void add_render(CLI::App& program, const Common& common, int& exit_code) {
     add_camera_options(*command, a->camera);
     add_image_options(*command, a->image);
     add_shading_options(*command, a->shading);
+    command->footer(
+        "Examples:\n"
+        "  transillum render room.vtm -o room.png\n"
+        "  transillum render room.vtm --eye 0,1.7,3 --look-at 0,1,0 --fov 60 --size 1280x720 -o "
+        "near.png -o near.exr");
     command->callback([a, &common, &exit_code] { exit_code = run(*a, common); });
 }
 

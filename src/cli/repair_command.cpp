@@ -84,7 +84,7 @@ void print_text(const RepairArguments& a, const RepairReport& r, const Checks* c
 int run(RepairArguments& a, const Common& common) {
     const bool polygons = holds_polygons(a.output);
     require_writable(a.output);
-    Console console(common.quiet);
+    Console console(common);
     const Workers workers(a.mesh.threads);
     const Scene scene = load_scene(a.mesh.scene, {}, console);
     // STL and glTF hold floats: what is made has to be sound among these.
@@ -120,6 +120,9 @@ void add_repair(CLI::App& program, const Common& common, int& exit_code) {
     command->footer(
         "Exit codes: 0 also where something harmful is left, which is told; 'check' of what was "
         "written exits with 3 then.");
+    command->footer(
+        "Example:\n"
+        "  transillum repair room.obj -o sound.obj");
     command->callback([a, &common, &exit_code] { exit_code = run(*a, common); });
 }
 

@@ -39,8 +39,9 @@ void add_options(CLI::App& command, ResumeArguments& a) {
         ->capture_default_str()
         ->group(stopping);
     command
-        .add_option("--target-error", a.resume.target_error,
-                    "relative error, as 0.01; 0: none. The estimate is held below it by a fifth")
+        .add_option(
+            "--target-error", a.resume.target_error,
+            "relative error, as 0.01; 0: none. The estimate is held below it by a sixth or more")
         ->check(within(0.0, 1.0))
         ->capture_default_str()
         ->group(stopping);
@@ -63,7 +64,7 @@ void add_options(CLI::App& command, ResumeArguments& a) {
 }
 
 int run(ResumeArguments& a, const Common& common) {
-    Console console(common.quiet);
+    Console console(common);
     if (a.output.empty()) a.output = a.solution;
     if (!a.output.ends_with(".vtm"))
         throw UsageError("--output " + a.output + "; accepted: a name that ends in .vtm");
@@ -91,6 +92,9 @@ void add_resume(CLI::App& program, const Common& common, int& exit_code) {
     CLI::App* command =
         program.add_subcommand("resume", "Go on with a bake, for more iterations or less error");
     add_options(*command, *arguments);
+    command->footer(
+        "Example:\n"
+        "  transillum resume room.vtm --iterations 1024");
     command->callback([arguments, &common, &exit_code] { exit_code = run(*arguments, common); });
 }
 

@@ -6,9 +6,7 @@
 
 namespace transillum::cli {
 
-namespace {
-
-Components chosen(const std::vector<std::string>& words) {
+Components chosen_components(const std::vector<std::string>& words) {
     if (words.empty()) return {};
     Components c{false, false, false, false};
     for (const std::string& word : words) {
@@ -19,8 +17,6 @@ Components chosen(const std::vector<std::string>& words) {
     }
     return c;
 }
-
-}  // namespace
 
 void add_shading_options(CLI::App& command, ShadingOptions& options, const std::string& automatic) {
     add_choice(command, "--direct", options.render.direct,
@@ -66,7 +62,7 @@ RenderOptions make_render_options(const ShadingOptions& options, Size size) {
     RenderOptions render = options.render;
     render.width = size.width;
     render.height = size.height;
-    render.components = chosen(options.components);
+    render.components = chosen_components(options.components);
     render.interpolate = !options.flat;
     const bool asked_for = render.monte_carlo != MonteCarloShading::automatic &&
                            render.monte_carlo != MonteCarloShading::off;

@@ -20,6 +20,9 @@ struct ShadingOptions {
 void add_shading_options(CLI::App& command, ShadingOptions& options,
                          const std::string& automatic = "rays");
 
+/// All where there are no words.
+[[nodiscard]] Components chosen_components(const std::vector<std::string>& words);
+
 [[nodiscard]] RenderOptions make_render_options(const ShadingOptions& options, Size size);
 
 }  // namespace transillum::cli

@@ -34,12 +34,15 @@ void add_subdivide(CLI::App& program, const Common& common, int& exit_code) {
         command->add_option("--max-level", a->subdivision.level, "cut every triangle into 4^N")
             ->check(CLI::Range(0, max_subdivision_level))
             ->excludes(edge);
+    command->footer(
+        "Example:\n"
+        "  transillum subdivide room.obj -o fine.obj --max-edge 0.1");
     command->callback([=, &common, &exit_code] {
         if (edge->count() + level->count() == 0)
             throw UsageError("subdivide needs a limit; accepted: --max-edge or --max-level");
         (void)holds_polygons(a->output);
         require_writable(a->output);
-        Console console(common.quiet);
+        Console console(common);
         const Scene scene = load_scene(a->scene, a->load, console);
         save_scene(subdivide_scene(scene, a->subdivision, console), a->output, console);
         exit_code = ExitCode::done;

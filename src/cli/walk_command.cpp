@@ -51,7 +51,7 @@ std::uint64_t frame_count(const CameraPath& path, double frames_a_second) {
 }
 
 int run(const WalkArguments& a, const Common& common) {
-    Console console(common.quiet);
+    Console console(common);
     RenderOptions render = make_render_options(a.shading, parse_size(a.size));
     const CameraPath path = read_camera_path(a.path);
     const std::uint64_t frames = frame_count(path, a.frames_a_second);
@@ -116,6 +116,9 @@ void add_walk(CLI::App& program, const Common& common, int& exit_code) {
         ->capture_default_str()
         ->group("Output");
     add_shading_options(*command, a->shading, "subpatch");
+    command->footer(
+        "Example:\n"
+        "  transillum walk room.vtm --path tour.path -o frames");
     command->callback([a, &common, &exit_code] { exit_code = run(*a, common); });
 }
 

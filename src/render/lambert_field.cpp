@@ -1,5 +1,7 @@
 #include "render/lambert_field.h"
 
+#include "render/patch_areas.h"
+
 #include <algorithm>
 #include <numbers>
 #include <span>
@@ -9,15 +11,6 @@ namespace transillum {
 namespace {
 
 constexpr float inv_pi = std::numbers::inv_pi_v<float>;
-
-std::vector<float> patch_areas(const Solution& solution) {
-    std::vector<float> areas(solution.patches.patch_count());
-    for (std::uint32_t patch = 0; patch < areas.size(); ++patch) {
-        const std::uint32_t leaf = solution.patches.leaf_of_patch(patch);
-        areas[patch] = static_cast<float>(area_of_leaf(solution.surface, solution.patches, leaf));
-    }
-    return areas;
-}
 
 std::vector<Spectrum> direct_light(const Solution& s) {
     std::vector<Spectrum> values = s.direct_irradiance;

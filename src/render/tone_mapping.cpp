@@ -11,10 +11,10 @@ constexpr float middle_grey = 0.18f;
 constexpr float shoulder = 0.6f;
 
 template <class Accept>
-float median_luminance(const Image& image, Accept accept) {
+float median_luminance(std::span<const Spectrum> radiance, Accept accept) {
     std::vector<float> lit;
-    for (std::size_t i = 0; i < image.pixels.size(); ++i)
-        if (const float y = luminance(image.pixels[i]); y > 0.0f && accept(i)) lit.push_back(y);
+    for (std::size_t i = 0; i < radiance.size(); ++i)
+        if (const float y = luminance(radiance[i]); y > 0.0f && accept(i)) lit.push_back(y);
     if (lit.empty()) return 0.0f;
     const auto middle = lit.begin() + static_cast<std::ptrdiff_t>(lit.size() / 2);
     std::nth_element(lit.begin(), middle, lit.end());
@@ -23,13 +23,13 @@ float median_luminance(const Image& image, Accept accept) {
 
 }  // namespace
 
-float exposure_factor(const Image& image, const ToneMapping& tone) {
+float exposure_factor(std::span<const Spectrum> radiance, std::span<const float> emitter_mask,
+                      const ToneMapping& tone) {
     const auto stops = static_cast<float>(std::exp2(tone.exposure));
     if (!tone.automatic) return stops;
-    float median = median_luminance(image, [&](std::size_t i) {
-        return image.emitter_mask.empty() || image.emitter_mask[i] == 0.0f;
-    });
-    if (median == 0.0f) median = median_luminance(image, [](std::size_t) { return true; });
+    float median = median_luminance(
+        radiance, [&](std::size_t i) { return emitter_mask.empty() || emitter_mask[i] == 0.0f; });
+    if (median == 0.0f) median = median_luminance(radiance, [](std::size_t) { return true; });
     return median > 0.0f ? stops * middle_grey / median : stops;
 }
 

@@ -1,17 +1,12 @@
 #include "scene/gltf_builder.h"
 
-#include <transillum/base/error.h>
+#include <transillum/base/glb.h>
 
-#include <bit>
-#include <cstdint>
-#include <cstring>
-#include <limits>
+#include <utility>
 
 namespace transillum {
 
 namespace {
-
-static_assert(std::endian::native == std::endian::little);
 
 /// As a reference within a URI.
 std::string encode_percent(const std::string& name) {
@@ -28,10 +23,6 @@ std::string encode_percent(const std::string& name) {
         }
     }
     return uri;
-}
-
-void append(std::string& bytes, std::uint32_t value) {
-    bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
 }  // namespace
@@ -68,31 +59,6 @@ GltfBuilder::Json& GltfBuilder::extension(const char* name) {
     return root_["extensions"][name];
 }
 
-void GltfBuilder::write_binary(const std::string& text) {
-    constexpr std::uint32_t json_chunk = 0x4e4f534a, binary_chunk = 0x004e4942;
-    const auto padded = [](std::string bytes, char with) {
-        bytes.resize((bytes.size() + 3) / 4 * 4, with);
-        return bytes;
-    };
-    const std::string json = padded(text, ' '), binary = padded(bytes_, '\0');
-    const std::uint64_t size = 12 + 8 + json.size() + 8 + binary.size();
-    if (size > std::numeric_limits<std::uint32_t>::max())
-        throw InputError(writer_.files.main().string(),
-                         std::to_string(size) +
-                             " bytes; accepted by .glb: below 4 GiB, "
-                             "and more by .gltf");
-    std::string bytes = "glTF";
-    append(bytes, 2);
-    append(bytes, static_cast<std::uint32_t>(size));
-    append(bytes, static_cast<std::uint32_t>(json.size()));
-    append(bytes, json_chunk);
-    bytes += json;
-    append(bytes, static_cast<std::uint32_t>(binary.size()));
-    append(bytes, binary_chunk);
-    bytes += binary;
-    writer_.files.write_main(bytes);
-}
-
 void GltfBuilder::finish() {
     if (!extensions_.empty()) root_["extensionsUsed"] = extensions_;
     Json buffer{{"byteLength", bytes_.size()}};
@@ -102,7 +68,8 @@ void GltfBuilder::finish() {
     // Names from other formats may be in another encoding than UTF-8.
     constexpr auto replace = Json::error_handler_t::replace;
     if (container_ == GltfContainer::binary)
-        return write_binary(root_.dump(-1, ' ', false, replace));
+        return writer_.files.write_main(glb_bytes(root_.dump(-1, ' ', false, replace),
+                                                  std::move(bytes_), writer_.files.main()));
     writer_.files.write(file, bytes_);
     writer_.files.write_main(root_.dump(1, ' ', false, replace) + "\n");
 }

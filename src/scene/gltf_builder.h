@@ -35,8 +35,6 @@ public:
     void finish();
 
 private:
-    void write_binary(const std::string& text);
-
     const SceneWriter& writer_;
     GltfContainer container_;
     Json root_;

@@ -1,11 +1,11 @@
 #include <transillum/solution/save_solution.h>
+#include <transillum/solution/stored_patches.h>
 
 #include "check_solution.h"
 #include "index_file.h"
 #include "pieces/pieces.h"
 #include "replace_files.h"
 #include "run_record.h"
-#include "stored_patches.h"
 #include "vtk_bytes.h"
 
 #include <transillum/base/error.h>

@@ -79,7 +79,8 @@ public:
                 transfer(transfer_.bundle(begin + in_block), average_.weight_after(block));
                 ++in_block;
                 monitor_.progress({"transport", begin + in_block, options_.iterations,
-                                   average_.relative_error()});
+                                   average_.relative_error(),
+                                   options_.target_error > 0.0 || options_.seconds > 0.0});
             } while (in_block < block && begin + in_block < options_.iterations && !stopped());
             // One that goes on begins the block that was cut short once more.
             if (in_block < block) keep_sums(std::move(glossy_sums_), in_block);

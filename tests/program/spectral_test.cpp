@@ -87,7 +87,8 @@ TEST_F(Spectral, MistakesAreNamed) {
     expect_refused("--spectral 7", 2, "'7' bands; accepted: 8 to 60");
     expect_refused("--spectral 61", 2, "'61' bands; accepted: 8 to 60");
     expect_refused("--spectral many", 2, "'many' bands; accepted: 8 to 60");
-    expect_refused("--spectral 60 --memory 0.001", 2, "for bands or emitters; accepted: 0.00 in all");
+    expect_refused("--spectral 60 --memory 0.001", 2,
+                   "for bands or emitters; accepted: 0.00 in all");
     expect_refused("--spectra map.json", 2, "accepted: together with --spectral");
     expect_refused("--spectral --spectra gone.json", 4, "gone.json");
     expect_refused("--spectral --spectra room.obj", 3, "room.obj: no JSON");

@@ -13,6 +13,7 @@ struct Progress {
     std::uint64_t done = 0;   ///< iterations, samples or rows done
     std::uint64_t total = 0;  ///< 0 where it is not known
     double error = std::numeric_limits<double>::quiet_NaN();  ///< relative error, NaN where unknown
+    bool may_end_sooner = false;                              ///< than at `total`
 };
 
 /// An argument of every long-running function. The default says nothing and never stops.

@@ -1,6 +1,6 @@
 #include "pieces.h"
 
-#include "solution/stored_patches.h"
+#include "solution/patch_cells.h"
 #include "solution/vtk_arrays.h"
 
 #include <vtkCellData.h>

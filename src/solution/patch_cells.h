@@ -1,4 +1,4 @@
-/// Which patches are worth a cell in the files, and the cells themselves.
+/// The patches of a solution as cells of a file.
 #pragma once
 
 #include <transillum/solution/solution.h>
@@ -11,9 +11,6 @@
 #include <vector>
 
 namespace transillum {
-
-/// Patches, ascending, of the root sides that can shine and do: some leaf emits or is lit.
-[[nodiscard]] std::vector<std::uint32_t> stored_patches(const Solution& solution);
 
 /// One triangle a patch; the leaves of a root's side share their points; backs turn the other way
 /// round. Cell arrays Root, Leaf (number within the root) and Side (0 front, 1 back) say which is

@@ -1,0 +1,171 @@
+#include "render/hanging_vertices.h"
+#include "render/patch_areas.h"
+#include "render/tone_mapping.h"
+#include "render/vertex_grid.h"
+
+#include <transillum/render/make_radiance_mesh.h>
+#include <transillum/solution/stored_patches.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <span>
+#include <utility>
+
+namespace transillum {
+
+namespace {
+
+/// The radiance of each patch, or of each vertex of the grid, first as seen from the front, then
+/// from the back.
+using Values = std::vector<Spectrum>;
+
+Values values_of(const Solution& s, const VertexGrid* grid, const Components& components,
+                 const Workers& workers) {
+    const std::uint32_t leaves = s.patches.leaf_count;
+    Values steady(s.patches.patch_count()), estimated(s.patches.patch_count());
+    for (std::uint32_t p = 0; p < s.patches.patch_count(); ++p) {
+        steady[p] = (components.emission ? s.emission(p) : Spectrum(0.0f)) +
+                    (components.direct ? s.direct_radiance(p) : Spectrum(0.0f));
+        if (components.finite_element) estimated[p] = s.finite_element_radiance(p);
+    }
+    if (!grid) {
+        std::ranges::transform(steady, estimated, steady.begin(), std::plus());
+        return steady;
+    }
+    Values values;
+    const std::vector<float> areas = patch_areas(s);
+    for (const std::uint32_t side : {0u, leaves}) {
+        const auto interpolate = [&](const Values& of_patches, const std::vector<float>& weights) {
+            return vertex_values(*grid, std::span(of_patches).subspan(side, leaves),
+                                 std::span(weights).subspan(side, leaves), workers);
+        };
+        const Values known = interpolate(steady, areas);
+        const Values found = interpolate(estimated, s.coverage);
+        for (std::size_t v = 0; v < known.size(); ++v) values.push_back(known[v] + found[v]);
+    }
+    return values;
+}
+
+Values values_of(const SpectralSolution& spectral, const VertexGrid* grid,
+                 const Components& components, const Workers& workers) {
+    if (spectral.groups.empty()) return values_of(spectral.rgb, grid, components, workers);
+    const Bands bands(spectral.bands);
+    Solution solution = spectral.rgb;
+    std::vector<SpectrumSum> sums;  // double, as all of a picture's bands
+    for (int g = 0; g < bands.groups(); ++g) {
+        put_into_group(solution, spectral, bands, g);
+        const Values values = values_of(solution, grid, components, workers);
+        sums.resize(values.size(), SpectrumSum(0.0));
+        for (std::size_t i = 0; i < values.size(); ++i)
+            sums[i] += bands.rgb_from_group(g) * SpectrumSum(values[i]);
+    }
+    Values result;
+    // Pure colours lie outside sRGB.
+    for (const SpectrumSum& sum : sums) result.emplace_back(glm::max(sum, SpectrumSum(0.0)));
+    return result;
+}
+
+class MeshBuilder {
+public:
+    MeshBuilder(const Solution& solution, const VertexGrid& grid, Values values, bool interpolate)
+        : solution_(solution),
+          grid_(grid),
+          hanging_(grid),
+          values_(std::move(values)),
+          interpolate_(interpolate),
+          numbers_(2 * grid.vertex_count(), none) {}
+
+    RadianceMesh build() {
+        const SurfaceMesh& surface = solution_.surface;
+        mesh_.objects = surface.objects;
+        for (const Material& m : surface.materials) mesh_.materials.push_back(m.name);
+        for (const std::uint32_t patch : stored_patches(solution_)) add(patch);
+        std::ranges::stable_sort(mesh_.triangles, {}, &RadianceMesh::Triangle::object);
+        return std::move(mesh_);
+    }
+    /// 1 for vertices of emitters.
+    [[nodiscard]] const std::vector<float>& emitter_mask() const { return emits_; }
+
+private:
+    static constexpr std::uint32_t none = 0xffffffffu;
+
+    void add(std::uint32_t patch) {
+        const std::uint32_t leaf = solution_.patches.leaf_of_patch(patch);
+        const auto& corners = grid_.leaf_vertices[leaf];
+        std::vector<std::uint32_t> around;
+        for (std::size_t c = 0; c < 3; ++c) {
+            const std::uint32_t from = corners[c], to = corners[(c + 1) % 3];
+            around.push_back(vertex(patch, from));
+            for (const std::uint32_t v : hanging_.between(from, to))
+                around.push_back(vertex(patch, v));
+        }
+        if (around.size() == 3) return add_triangle(patch, around[0], around[1], around[2]);
+        // Each edge of the polygon with the middle: none of these is without area.
+        const std::uint32_t middle = add_middle(patch);
+        for (std::size_t i = 0; i < around.size(); ++i)
+            add_triangle(patch, around[i], around[(i + 1) % around.size()], middle);
+    }
+
+    std::uint32_t vertex(std::uint32_t patch, std::uint32_t number) {
+        if (!interpolate_) return add_vertex(grid_.positions[number], values_[patch], patch);
+        const std::size_t i =
+            number + (solution_.patches.is_back(patch) ? grid_.vertex_count() : 0);
+        if (numbers_[i] == none)
+            numbers_[i] = add_vertex(grid_.positions[number], values_[i], patch);
+        return numbers_[i];
+    }
+
+    std::uint32_t add_middle(std::uint32_t patch) {
+        const std::uint32_t leaf = solution_.patches.leaf_of_patch(patch);
+        if (!interpolate_) return add_vertex(grid_.leaf_centres[leaf], values_[patch], patch);
+        Spectrum mean(0.0f);
+        for (const std::uint32_t v : grid_.leaf_vertices[leaf])
+            mean += mesh_.radiance[vertex(patch, v)] / 3.0f;
+        return add_vertex(grid_.leaf_centres[leaf], mean, patch);
+    }
+
+    std::uint32_t add_vertex(const glm::dvec3& position, const Spectrum& radiance,
+                             std::uint32_t patch) {
+        mesh_.positions.push_back(position);
+        mesh_.radiance.push_back(radiance);
+        emits_.push_back(solution_.emits(patch) ? 1.0f : 0.0f);
+        return static_cast<std::uint32_t>(mesh_.positions.size() - 1);
+    }
+
+    void add_triangle(std::uint32_t patch, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+        if (solution_.patches.is_back(patch)) std::swap(b, c);
+        const std::uint32_t leaf = solution_.patches.leaf_of_patch(patch);
+        const RootTriangle& root =
+            solution_.surface.triangles[solution_.patches.root_of_leaf[leaf]];
+        mesh_.triangles.push_back({{a, b, c}, root.object, root.material});
+    }
+
+    const Solution& solution_;
+    const VertexGrid& grid_;
+    const HangingVertices hanging_;
+    const Values values_;
+    const bool interpolate_;
+    std::vector<std::uint32_t> numbers_;  ///< in the mesh: of the grid's, as Values has them
+    std::vector<float> emits_;
+    RadianceMesh mesh_;
+};
+
+}  // namespace
+
+RadianceMesh make_radiance_mesh(const SpectralSolution& spectral,
+                                const RadianceMeshOptions& options, const Workers& workers) {
+    const Solution& solution = spectral.rgb;
+    const VertexGrid grid = build_vertex_grid(solution.surface, solution.patches);
+    Values values =
+        values_of(spectral, options.interpolate ? &grid : nullptr, options.components, workers);
+    MeshBuilder builder(solution, grid, std::move(values), options.interpolate);
+    RadianceMesh mesh = builder.build();
+    const float factor = exposure_factor(mesh.radiance, builder.emitter_mask(), options.tone);
+    mesh.exposure = std::log2(double{factor});
+    for (const Spectrum& radiance : mesh.radiance)
+        mesh.display.push_back(compress_highlights(factor * radiance));
+    return mesh;
+}
+
+}  // namespace transillum
