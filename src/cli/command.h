@@ -46,6 +46,7 @@ void add_export(CLI::App& program, const Common& common, int& exit_code);
 void add_compare(CLI::App& program, const Common& common, int& exit_code);
 void add_reference(CLI::App& program, const Common& common, int& exit_code);
 void add_subdivide(CLI::App& program, const Common& common, int& exit_code);
+void add_serve(CLI::App& program, const Common& common, int& exit_code);
 void add_manual(CLI::App& program, const Common& common, int& exit_code);
 void add_completion(CLI::App& program, const Common& common, int& exit_code);
 

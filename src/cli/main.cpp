@@ -81,6 +81,7 @@ int parse_and_run(int argc, char** argv) {
     add_render(program, common, exit_code);
     add_walk(program, common, exit_code);
     add_export(program, common, exit_code);
+    add_serve(program, common, exit_code);
     add_info(program, common, exit_code);
     add_repair(program, common, exit_code);
     add_check(program, common, exit_code);

@@ -139,7 +139,8 @@ INSTANTIATE_TEST_SUITE_P(Structure, LibraryHome,
                                          Home{"OpenImageIO", "OpenImageIO/.*", {"scene", "render"}},
                                          Home{"TBB", "(oneapi/)?tbb/.*", {"base"}},
                                          Home{"CLI11", "CLI/.*", {"cli"}},
-                                         Home{"spdlog", "spdlog/.*", {"cli"}}),
+                                         Home{"spdlog", "spdlog/.*", {"cli"}},
+                                         Home{"cpp-httplib", "httplib.h", {"cli"}}),
                          [](const auto& info) { return std::string(info.param.name); });
 
 }  // namespace
