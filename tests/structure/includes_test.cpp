@@ -140,7 +140,7 @@ INSTANTIATE_TEST_SUITE_P(Structure, LibraryHome,
                                          Home{"TBB", "(oneapi/)?tbb/.*", {"base"}},
                                          Home{"CLI11", "CLI/.*", {"cli"}},
                                          Home{"spdlog", "spdlog/.*", {"cli"}},
-                                         Home{"cpp-httplib", "httplib.h", {"cli"}}),
+                                         Home{"httplib", "httplib\\.h", {"cli"}}),
                          [](const auto& info) { return std::string(info.param.name); });
 
 }  // namespace

@@ -51,7 +51,7 @@ def main(program, scene, folder):
     folder.mkdir(parents=True)
     box = folder / 'box.vtm'
     run(program, '-q', 'bake', scene, '-o', box, '--leaves', 1000, '--iterations', 32,
-        '--refine', 1, '--phases')
+        '--refine', 2, '--phases')
 
     picture = folder / 'picture.png'
     show(box, picture, '--camera', 'front', '--size', '500x500')
