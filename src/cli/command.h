@@ -20,7 +20,7 @@ enum class ProgressStyle {
     automatic,  ///< a bar on a terminal, else plain
     bar,
     plain,  ///< a line every few seconds
-    json,   ///< the same as JSON, and messages, too: an object a line
+    json,   ///< every second; messages, too: an object a line
     none
 };
 

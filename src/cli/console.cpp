@@ -16,7 +16,7 @@ namespace {
 
 constexpr int usual_width = 80;
 constexpr std::chrono::milliseconds between_bars{100};
-constexpr std::chrono::seconds between_lines{5};
+constexpr std::chrono::seconds between_lines{5}, between_objects{1};
 
 std::atomic<bool> stop{false};
 
@@ -71,8 +71,10 @@ void Console::progress(const Progress& p) {
         log("progress", plain_line(*last_));
     }
     if (style_ == ProgressStyle::none) return;
-    const bool is_frequent = style_ == ProgressStyle::bar;
-    if (!last_->ends && now - last_shown_ < (is_frequent ? between_bars : between_lines)) return;
+    const Clock::duration pause = style_ == ProgressStyle::bar    ? Clock::duration(between_bars)
+                                  : style_ == ProgressStyle::json ? Clock::duration(between_objects)
+                                                                  : Clock::duration(between_lines);
+    if (!last_->ends && now - last_shown_ < pause) return;
     last_shown_ = now;
     show(*last_);
 }

@@ -12,6 +12,8 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <numbers>
+#include <numeric>
 #include <string>
 
 namespace transillum {
@@ -21,12 +23,25 @@ namespace {
 constexpr int base_samples = 4;
 constexpr int base_iterations = 16;  ///< from which noise is estimated
 constexpr int most_samples = 4096;
-constexpr int rows_between_reports = 64;
+constexpr int rows_between_reports = 16;
 /// Pixels whose surroundings vary by more, relative to their brightest channel, are sampled
 /// further. What is left to chance has no say in that: noise is no edge.
 constexpr float contrast_threshold = 0.04f;
 /// Standard error of what is left to chance that is aimed at, relative to the surroundings.
 constexpr double noise_threshold = 0.02;
+
+/// All over the picture, whose top may take longer than the rest: what is done is a fair sample of
+/// what is left.
+std::vector<int> spread_rows(int height) {
+    const int count = (height + rows_between_reports - 1) / rows_between_reports;
+    int step = std::max(1, static_cast<int>(std::lround((std::numbers::phi - 1.0) * count)));
+    while (std::gcd(step, count) > 1) ++step;
+    std::vector<int> first_rows;
+    for (int i = 0; i < count; ++i)
+        first_rows.push_back(static_cast<int>(std::int64_t{i} * step % count) *
+                             rows_between_reports);
+    return first_rows;
+}
 
 struct PixelRecord {
     Spectrum steady{0.0f}, by_chance{0.0f};
@@ -62,6 +77,7 @@ public:
           view_(camera, options.width, options.height),
           shader_(shader),
           gather_(gather),
+          first_rows_(spread_rows(options.height)),
           records_(static_cast<std::size_t>(options.width) * options.height) {}
 
     Image render() {
@@ -91,8 +107,9 @@ private:
 
     template <class Pixel>
     void for_pixels(Pixel pixel, const char* phase = nullptr) {
-        for (int first = 0; first < options_.height && !monitor_.stop_requested();
-             first += rows_between_reports) {
+        int done = 0;
+        for (const int first : first_rows_) {
+            if (monitor_.stop_requested()) return;
             const int last = std::min(first + rows_between_reports, options_.height);
             workers_.for_ranges(static_cast<std::size_t>(last - first), 1,
                                 [&](std::size_t from, std::size_t to, int) {
@@ -100,8 +117,9 @@ private:
                                         for (int x = 0; x < options_.width; ++x)
                                             pixel(x, first + static_cast<int>(y));
                                 });
+            done += last - first;
             if (phase)
-                monitor_.progress({phase, static_cast<std::uint64_t>(last),
+                monitor_.progress({phase, static_cast<std::uint64_t>(done),
                                    static_cast<std::uint64_t>(options_.height)});
         }
     }
@@ -216,7 +234,8 @@ private:
     CameraRays view_;
     const SolutionShader& shader_;
     BundleGather* gather_;
-    std::vector<Spectrum> gathered_;  ///< of the pixels; empty without bundles
+    std::vector<Spectrum> gathered_;     ///< of the pixels; empty without bundles
+    const std::vector<int> first_rows_;  ///< between reports, in the order that they are worked on
     std::vector<PixelRecord> records_;
     std::vector<Target> targets_;
 };
