@@ -138,7 +138,7 @@ private:
         const std::uint32_t leaf = solution_.patches.leaf_of_patch(patch);
         const RootTriangle& root =
             solution_.surface.triangles[solution_.patches.root_of_leaf[leaf]];
-        mesh_.triangles.push_back({{a, b, c}, root.object, root.material});
+        mesh_.triangles.push_back({{a, b, c}, root.object, root.material, patch});
     }
 
     const Solution& solution_;

@@ -37,6 +37,10 @@ double automatic_exposure(const Image& image) {
     return std::log2(double{exposure_factor(image, {})});
 }
 
+Spectrum display_colour(const Spectrum& radiance, double stops) {
+    return compress_highlights(static_cast<float>(std::exp2(stops)) * radiance);
+}
+
 Spectrum compress_highlights(const Spectrum& colour) {
     const Spectrum c = glm::max(colour, Spectrum(0.0f));
     const float peak = max_channel(c);

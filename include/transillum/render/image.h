@@ -34,6 +34,9 @@ struct ToneMapping {
         true;  ///< scale so that the median luminance of lit pixels shows as middle grey
 };
 
+/// What a screen shows of a radiance that is exposed by so many stops: linear sRGB in [0, 1].
+[[nodiscard]] Spectrum display_colour(const Spectrum& radiance, double stops);
+
 /// The exposure [stops] that automatic exposure chooses for an image.
 [[nodiscard]] double automatic_exposure(const Image& image);
 

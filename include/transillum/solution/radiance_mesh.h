@@ -16,6 +16,7 @@ struct RadianceMesh {
     struct Triangle {
         std::array<std::uint32_t, 3> vertices{};  ///< counter-clockwise seen from its lit side
         std::uint32_t object = 0, material = 0;
+        std::uint32_t patch = 0;  ///< of the solution
     };
 
     std::vector<glm::dvec3> positions;

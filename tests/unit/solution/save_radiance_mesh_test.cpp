@@ -35,8 +35,8 @@ RadianceMesh two_squares() {
             mesh.display.emplace_back(0.5f * static_cast<float>(i), 1.0f, 0.0f);
         }
         const std::uint32_t object = first == 0 ? 0 : 2;
-        mesh.triangles.push_back({{first, first + 1, first + 2}, object, 0});
-        mesh.triangles.push_back({{first, first + 2, first + 3}, object, 0});
+        mesh.triangles.push_back({{first, first + 1, first + 2}, object, 0, 0});
+        mesh.triangles.push_back({{first, first + 2, first + 3}, object, 0, 0});
     }
     mesh.exposure = -1.5;
     return mesh;
