@@ -52,7 +52,7 @@ void add_options(CLI::App& program, Arguments& a) {
         ->capture_default_str();
     program.add_option("--height", a.height)->check(CLI::Range(64, 8192))->capture_default_str();
     program.add_option("--screenshot", a.screenshot,
-                       "write what the window shows to this .png, and end");
+                       "write what the window shows to this .png, without text, and end");
     program.add_option("--threads", a.threads, "0: as many as the machine has")
         ->capture_default_str();
     program.footer(std::string("Keys:\n") + key_help +
@@ -80,7 +80,7 @@ int run(const Arguments& a) {
     view.expose((a.automatic ? view.stops() : 0.0) + a.exposure);
     view.show(static_cast<std::size_t>(a.quantity - 1));
     if (!a.screenshot.empty()) {
-        view.toggle_help();
+        view.hide_text();
         view.save_picture(a.screenshot);
         return ExitCode::done;
     }

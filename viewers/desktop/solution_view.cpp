@@ -100,6 +100,7 @@ SolutionView::SolutionView(SpectralSolution solution, std::string name, const Wo
     bar_->SetLookupTable(blue_to_yellow());
     bar_->SetNumberOfLabels(5);
     bar_->SetMaximumWidthInPixels(90);
+    bar_->SetPosition(0.76, 0.1);
     bar_->SetVerticalTitleSeparation(8);
     bar_->UnconstrainedFontSizeOn();
     for (vtkTextProperty* const text :
@@ -109,13 +110,21 @@ SolutionView::SolutionView(SpectralSolution solution, std::string name, const Wo
         text->BoldOff();
         text->ShadowOff();
     }
-    text_->SetMinimumFontSize(font_size);
-    text_->SetMaximumFontSize(font_size);
-    text_->GetTextProperty()->SetFontFamilyToCourier();
+    for (vtkTextActor* const text : {title_.Get(), help_.Get()}) {
+        const bool is_title = text == title_.Get();
+        text->GetPositionCoordinate()->SetCoordinateSystemToNormalizedViewport();
+        text->SetPosition(0.01, is_title ? 0.99 : 0.01);
+        vtkTextProperty& property = *text->GetTextProperty();
+        property.SetFontFamilyToCourier();
+        property.SetFontSize(font_size);
+        property.SetVerticalJustification(is_title ? VTK_TEXT_TOP : VTK_TEXT_BOTTOM);
+        property.SetBackgroundColor(0.0, 0.0, 0.0);
+        property.SetBackgroundOpacity(0.6);
+        renderer_->AddActor2D(text);
+    }
     renderer_->SetBackground(0.086, 0.094, 0.106);
     renderer_->AddActor(actor_);
     renderer_->AddActor2D(bar_);
-    renderer_->AddViewProp(text_);
     window_->AddRenderer(renderer_);
     window_->SetMultiSamples(4);
     window_->SetWindowName(("transillum: " + name_).c_str());
@@ -204,10 +213,9 @@ void SolutionView::annotate() {
     const Quantity& quantity = quantities_[shown_];
     std::string title = name_ + ": " + quantity.name;
     if (quantity.is_picture) title += fmt::format(", exposure {:+.1f} stops", stops_);
-    text_->SetText(vtkCornerAnnotation::UpperLeft, title.c_str());
-    text_->SetText(vtkCornerAnnotation::LowerLeft, helps_ ? key_help : "h: help");
-    text_->SetText(vtkCornerAnnotation::UpperRight,
-                   picked_ ? describe_patch(solution_.rgb, *picked_).c_str() : "");
+    if (picked_) title += "\n\n" + describe_patch(solution_.rgb, *picked_);
+    title_->SetInput(title.c_str());
+    help_->SetInput(helps_ ? key_help : "h: help");
 }
 
 void SolutionView::show(std::size_t quantity) {
@@ -232,6 +240,12 @@ void SolutionView::toggle_edges() {
 void SolutionView::toggle_help() {
     helps_ = !helps_;
     annotate();
+    draw();
+}
+
+void SolutionView::hide_text() {
+    title_->VisibilityOff();
+    help_->VisibilityOff();
     draw();
 }
 

@@ -5,13 +5,13 @@
 #include "quantities.h"
 
 #include <vtkActor.h>
-#include <vtkCornerAnnotation.h>
 #include <vtkNew.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 #include <vtkScalarBarActor.h>
+#include <vtkTextActor.h>
 
 #include <filesystem>
 #include <optional>
@@ -35,6 +35,8 @@ public:
     [[nodiscard]] double stops() const { return stops_; }
     void toggle_edges();
     void toggle_help();
+    /// Title, help and what was picked; the colour map stays.
+    void hide_text();
 
     /// The solution's, and those that were bookmarked.
     [[nodiscard]] const std::vector<Camera>& cameras() const { return cameras_; }
@@ -75,7 +77,7 @@ private:
     vtkNew<vtkPolyDataMapper> mapper_;
     vtkNew<vtkActor> actor_;
     vtkNew<vtkScalarBarActor> bar_;
-    vtkNew<vtkCornerAnnotation> text_;
+    vtkNew<vtkTextActor> title_, help_;  ///< at the top, with what was picked; at the bottom
     vtkNew<vtkRenderer> renderer_;
     vtkNew<vtkRenderWindow> window_;
 };

@@ -127,7 +127,7 @@ def main(viewer, program, scene, folder):
             run(viewer, *words, '--screenshot', folder / name, env=screen.environment)
             return folder / name
 
-        # The same picture but for the text in its corners.
+        # Edges are blended otherwise: 5 %.
         seen = shot('seen.png', *at_front)
         run(program, 'compare', seen, rendered, '--fail-above', 0.1)
         corner = shot('corner.png', *at_front[:1], '--camera', 'corner', *at_front[3:])
