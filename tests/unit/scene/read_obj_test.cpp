@@ -231,7 +231,7 @@ TEST_F(ReadObj, ReportsWhatItDoesNotHonour) {
     material_of("Kd 0.5 0.5 0.5\nTf 0.1 0.1 0.1\nmap_Bump rough.png\nKa 1 1 1\n");
     EXPECT_TRUE(monitor_.any_names(monitor_.notes, "m.mtl:3: material 'm': 'Tf' is not honoured"));
     EXPECT_TRUE(monitor_.any_names(monitor_.warnings, "'map_Bump' is not honoured"));
-    EXPECT_FALSE(monitor_.any_names(monitor_.notes, "Ka"));
+    EXPECT_FALSE(monitor_.any_names(monitor_.notes, "'Ka'"));
 }
 
 }  // namespace
