@@ -40,13 +40,14 @@ std::string all_names(const CLI::App& command) {
     return names;
 }
 
-std::string bash_words(const CLI::App& command, const std::string& name) {
+/// \param start of a pattern, up to the option
+std::string bash_words(const CLI::App& command, const std::string& start) {
     std::string cases;
     for (const CLI::Option* option : options_of(command)) {
         const std::string words = words_of(*option);
         if (words.empty()) continue;
         for (const std::string& long_name : option->get_lnames())
-            cases += fmt::format("        '{} --{}') words='{}' ;;\n", name, long_name, words);
+            cases += fmt::format("        {} --{}') words='{}' ;;\n", start, long_name, words);
     }
     return cases;
 }
@@ -75,11 +76,11 @@ std::string fish_options(const CLI::App& command, const std::string& condition) 
 }  // namespace
 
 std::string bash_completion(const CLI::App& program) {
-    std::string subcommands, words = bash_words(program, "*"), options;
+    std::string subcommands, words = bash_words(program, "*'"), options;
     for (const CLI::App* command : program.get_subcommands({})) {
         const std::string& name = command->get_name();
         subcommands += (subcommands.empty() ? "" : " ") + name;
-        words += bash_words(*command, name);
+        words += bash_words(*command, "'" + name);
         options += fmt::format("        '{}') options+=' {}' ;;\n", name, all_names(*command));
     }
     return "# bash completion of transillum\n"

@@ -1,6 +1,7 @@
 // The program: parses, runs one subcommand, and alone prints errors and decides the exit code.
 #include "cli/command.h"
 #include "cli/log_file.h"
+#include "cli/progress_meter.h"
 #include "cli/scene_options.h"
 
 #include <transillum/base/error.h>
@@ -21,9 +22,12 @@ std::string join(int argc, char** argv) {
     return line;
 }
 
-int fail(const char* what, int exit_code) {
+int fail(const Common& common, const char* what, int exit_code) {
     log("error", what);
-    std::fprintf(stderr, "transillum: %s\n", what);
+    if (common.progress == ProgressStyle::json)
+        std::fprintf(stderr, "%s\n", json_message("error", what).c_str());
+    else
+        std::fprintf(stderr, "transillum: %s\n", what);
     return exit_code;
 }
 
@@ -59,7 +63,7 @@ std::string describe(const CLI::App& program, const CLI::ParseError& error) {
     return line + "; --help lists what is accepted";
 }
 
-int parse_and_run(int argc, char** argv) {
+int parse_and_run(int argc, char** argv, Common& common) {
     CLI::App program(
         "transillum: bakes view-independent global illumination into VTK meshes and looks at them "
         "again",
@@ -71,7 +75,6 @@ int parse_and_run(int argc, char** argv) {
         "Exit codes: 0 done, 1 comparison failed, 2 usage, 3 bad input, 4 input/output, 130 "
         "interrupted.\n"
         "Data goes to stdout, progress and messages to stderr.");
-    Common common;
     common.command_line = join(argc, argv);
     add_common_options(program, common);
     int exit_code = ExitCode::done;
@@ -95,7 +98,7 @@ int parse_and_run(int argc, char** argv) {
     } catch (const CLI::Success& e) {
         return program.exit(e);
     } catch (const CLI::ParseError& e) {
-        return fail(describe(program, e).c_str(), ExitCode::usage);
+        return fail(common, describe(program, e).c_str(), ExitCode::usage);
     }
     return exit_code;
 }
@@ -103,17 +106,19 @@ int parse_and_run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    Common common;
     try {
-        return parse_and_run(argc, argv);
+        return parse_and_run(argc, argv, common);
     } catch (const transillum::UsageError& e) {
-        return fail(e.what(), ExitCode::usage);
+        return fail(common, e.what(), ExitCode::usage);
     } catch (const transillum::InputError& e) {
-        return fail(e.what(), ExitCode::bad_input);
+        return fail(common, e.what(), ExitCode::bad_input);
     } catch (const transillum::IoError& e) {
-        return fail(e.what(), ExitCode::io_failed);
+        return fail(common, e.what(), ExitCode::io_failed);
     } catch (const std::bad_alloc&) {
-        return fail("out of memory; fewer leaves or light samples need less", ExitCode::io_failed);
+        return fail(common, "out of memory; fewer leaves or light samples need less",
+                    ExitCode::io_failed);
     } catch (const std::exception& e) {
-        return fail(e.what(), ExitCode::bad_input);
+        return fail(common, e.what(), ExitCode::bad_input);
     }
 }

@@ -111,10 +111,13 @@ WebServer::WebServer(const fs::path& file, int port) : listening_(std::make_uniq
     server.Get(".*", [=](const httplib::Request& request, httplib::Response& response) {
         // A name of this machine that another site made up must not read what is here.
         const std::string host = request.get_header_value("Host");
-        const std::string at = fmt::format(":{}", listening->port);
+        constexpr int usual_port = 80;  // which clients leave out
+        const std::string at =
+            listening->port == usual_port ? "" : fmt::format(":{}", listening->port);
         if (host != address + at && host != "localhost" + at) {
             response.status = 403;
-            return;
+            return response.set_content("host " + host + "; accepted: " + address + at + "\n",
+                                        "text/plain");
         }
         response.set_header("Cache-Control", "no-store");
         if (request.path == "/" || request.path == "/index.html")
@@ -131,6 +134,9 @@ WebServer::WebServer(const fs::path& file, int port) : listening_(std::make_uniq
             response.set_content(std::string(e.what()) + "\n", "text/plain");
         }
     });
+    // Idle connections hold a thread each.
+    server.set_keep_alive_timeout(1);
+    server.set_read_timeout(1);
     // The library's own let a second server on the same port take every other request.
     server.set_socket_options([](socket_t socket) {
         const int on = 1;

@@ -71,6 +71,8 @@ TEST_F(Documents, CompleteSubcommandsOptionsWordsAndFiles) {
     EXPECT_EQ(complete("exp"), "export\n");
     EXPECT_EQ(complete("bake --first-shot h"), "hemicube\n");
     EXPECT_EQ(complete("bake room.obj --light-s"), "--light-samples\n");
+    EXPECT_EQ(complete("bake --progress ba"), "bar\n");
+    EXPECT_EQ(complete("--progress ba"), "bar\n");
     EXPECT_EQ(complete("render --light-s"), "\n");
     EXPECT_EQ(complete("render --log-f"), "--log-file\n");
     write("room.vtm", "");

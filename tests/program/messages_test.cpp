@@ -38,6 +38,9 @@ TEST_F(Messages, AsJsonAreAnObjectALine) {
     EXPECT_EQ(last.at("done"), 128);
     EXPECT_EQ(last.at("percent"), 100);
     EXPECT_GT(last.at("error").get<double>(), 0.0);
+    const Outcome failed = run("--progress json bake none.obj -o none.vtm");
+    EXPECT_EQ(failed.exit_code, 4);
+    EXPECT_EQ(nlohmann::json::parse(failed.err).at("event"), "error");
     const Outcome quiet = bake("--progress json --quiet --again");
     EXPECT_THAT(quiet.err, HasSubstr("\"percent\":100"));
     EXPECT_THAT(quiet.err, Not(HasSubstr("\"note\"")));
