@@ -65,8 +65,9 @@ void add_tone_options(CLI::App& command, ToneMapping& tone, const std::string& w
         ->capture_default_str()
         ->group("Output");
     command
-        .add_flag("!--no-auto-exposure", tone.automatic,
-                  "a radiance of 1 is white (default: middle grey is the median)")
+        .add_flag_callback(
+            "--no-auto-exposure", [&tone] { tone.automatic = false; },
+            "a radiance of 1 is white (default: middle grey is the median)")
         ->group("Output");
 }
 

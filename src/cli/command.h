@@ -30,7 +30,6 @@ struct Common {
     bool quiet = false;        ///< no progress and no notes
     bool verbose = false;      ///< how long phases took
     ProgressStyle progress = ProgressStyle::automatic;
-    std::string log_file;  ///< empty: none
 };
 
 // Each sets `exit_code` when its subcommand was run.

@@ -46,13 +46,12 @@ void print(const std::string& line) {
 
 Console::Console(const Common& common) : common_(common), style_(style_of(common)) {
     std::signal(SIGINT, on_interrupt);
-    if (!common.log_file.empty()) open_log(common.log_file);
-    log("command", common.command_line);
     if (common.verbose) say("detail", "transillum " TRANSILLUM_VERSION ": " + common.command_line);
 }
 
 Console::~Console() {
     end_progress();
+    conclude_phase();
     const std::chrono::duration<double> all = Clock::now() - start_;
     const std::string took = fmt::format("{:.2f} s in all", all.count());
     log("end", took);
@@ -63,8 +62,9 @@ void Console::progress(const Progress& p) {
     const auto now = Clock::now();
     if (last_ && last_->phase != p.phase) {
         end_progress();
-        last_shown_ = last_logged_ = {};
+        conclude_phase();
     }
+    last_call_ = now;
     last_ = meter_.read(p, std::chrono::duration<double>(now - start_).count());
     if (last_->ends || now - last_logged_ >= between_lines) {
         last_logged_ = now;
@@ -114,9 +114,15 @@ bool Console::stop_requested() const {
 void Console::end_progress() {
     if (line_open_) fmt::print(stderr, "\n");
     line_open_ = false;
+}
+
+void Console::conclude_phase() {
     if (!last_) return;
-    const std::string took = fmt::format("{}: {:.2f} s", last_->phase, last_->elapsed);
+    const std::chrono::duration<double> seconds = last_call_ - phase_start_;
+    const std::string took = fmt::format("{}: {:.2f} s", last_->phase, seconds.count());
     last_.reset();
+    phase_start_ = last_call_;
+    last_shown_ = last_logged_ = {};
     log("detail", took);
     if (common_.verbose) say("detail", took);
 }

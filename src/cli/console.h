@@ -21,13 +21,15 @@ public:
     void warn(const std::string& message) override;
     void note(const std::string& message) override;
     [[nodiscard]] bool stop_requested() const override;
-    /// Ends a line of progress that is still open, and the phase.
+    /// Ends a line of progress that is still open.
     void end_progress();
 
 private:
     using Clock = std::chrono::steady_clock;
 
     void show(const ProgressReading& reading);
+    /// Says how long the phase took: from the last report of the one before to its own.
+    void conclude_phase();
     void say(const char* event, const std::string& message);
 
     const Common& common_;
@@ -35,6 +37,7 @@ private:
     ProgressMeter meter_;
     std::optional<ProgressReading> last_;  ///< of the phase at hand
     Clock::time_point start_ = Clock::now(), last_shown_{}, last_logged_{};
+    Clock::time_point phase_start_ = start_, last_call_ = start_;
     bool line_open_ = false;
 };
 

@@ -7,7 +7,8 @@ namespace transillum::cli {
 
 /// Appends to the file from now on. \throws IoError where it cannot be opened.
 void open_log(const std::string& path);
-/// Nothing where no log is open. \param event progress, note, warning or error
+/// Nothing where no log is open. \param event command, progress, note, warning, error, detail or
+/// end
 void log(const std::string& event, const std::string& message);
 
 }  // namespace transillum::cli

@@ -33,8 +33,10 @@ int fail(const Common& common, const char* what, int exit_code) {
 
 void add_common_options(CLI::App& program, Common& common) {
     const char* const group = "Messages (of every subcommand)";
-    auto* const quiet =
-        program.add_flag("-q,--quiet", common.quiet, "no progress and no notes")->group(group);
+    auto* const quiet = program
+                            .add_flag("-q,--quiet", common.quiet,
+                                      "no progress and no notes; of --progress json, no notes")
+                            ->group(group);
     program.add_flag("-v,--verbose", common.verbose, "how long every phase took")
         ->excludes(quiet)
         ->group(group);
@@ -48,8 +50,13 @@ void add_common_options(CLI::App& program, Common& common) {
                "a line, messages, too")
         ->group(group);
     program
-        .add_option("--log-file", common.log_file,
-                    "append all that is told here, with the time, also of --quiet")
+        .add_option_function<std::string>(
+            "--log-file",
+            [&common](const std::string& path) {
+                open_log(path);
+                log("command", common.command_line);
+            },
+            "append all that is told here, with the time, also of --quiet")
         ->group(group);
 }
 
@@ -93,6 +100,10 @@ int parse_and_run(int argc, char** argv, Common& common) {
     add_subdivide(program, common, exit_code);
     add_manual(program, common, exit_code);
     add_completion(program, common, exit_code);
+    for (CLI::App* command : program.get_subcommands({}))
+        command->footer(command->get_footer() +
+                        "\nMessages, as of every subcommand: --quiet, --verbose, --progress, "
+                        "--log-file; see transillum --help");
     try {
         program.parse(argc, argv);
     } catch (const CLI::Success& e) {

@@ -61,6 +61,9 @@ Served served_files(const fs::path& file) {
     if (extension != ".vtm") return served;
     (void)load_solution(file);  // what is wrong with it is better said here
     const fs::path folder = fs::path(file).replace_extension();
+    if (!fs::is_directory(folder))
+        throw InputError(file.string(), "names pieces in another folder than " + folder.string() +
+                                            "; accepted: NAME.vtm beside its folder NAME");
     for (const auto& piece : fs::directory_iterator(folder))
         if (piece.is_regular_file() && !piece.is_symlink())
             served["/solution/" + folder.filename().string() + "/" +

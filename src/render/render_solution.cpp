@@ -23,7 +23,8 @@ namespace {
 constexpr int base_samples = 4;
 constexpr int base_iterations = 16;  ///< from which noise is estimated
 constexpr int most_samples = 4096;
-constexpr int rows_between_reports = 16;
+/// Rows between reports: at least, and for each thread, which would idle at their end otherwise.
+constexpr int least_rows = 16, rows_a_thread = 8;
 /// Pixels whose surroundings vary by more, relative to their brightest channel, are sampled
 /// further. What is left to chance has no say in that: noise is no edge.
 constexpr float contrast_threshold = 0.04f;
@@ -32,7 +33,7 @@ constexpr double noise_threshold = 0.02;
 
 /// All over the picture, whose top may take longer than the rest: what is done is a fair sample of
 /// what is left.
-std::vector<int> spread_rows(int height) {
+std::vector<int> spread_rows(int height, int rows_between_reports) {
     const int count = (height + rows_between_reports - 1) / rows_between_reports;
     int step = std::max(1, static_cast<int>(std::lround((std::numbers::phi - 1.0) * count)));
     while (std::gcd(step, count) > 1) ++step;
@@ -77,7 +78,8 @@ public:
           view_(camera, options.width, options.height),
           shader_(shader),
           gather_(gather),
-          first_rows_(spread_rows(options.height)),
+          rows_between_reports_(std::max(least_rows, rows_a_thread * workers.count())),
+          first_rows_(spread_rows(options.height, rows_between_reports_)),
           records_(static_cast<std::size_t>(options.width) * options.height) {}
 
     Image render() {
@@ -110,7 +112,7 @@ private:
         int done = 0;
         for (const int first : first_rows_) {
             if (monitor_.stop_requested()) return;
-            const int last = std::min(first + rows_between_reports, options_.height);
+            const int last = std::min(first + rows_between_reports_, options_.height);
             workers_.for_ranges(static_cast<std::size_t>(last - first), 1,
                                 [&](std::size_t from, std::size_t to, int) {
                                     for (std::size_t y = from; y < to; ++y)
@@ -234,7 +236,8 @@ private:
     CameraRays view_;
     const SolutionShader& shader_;
     BundleGather* gather_;
-    std::vector<Spectrum> gathered_;     ///< of the pixels; empty without bundles
+    std::vector<Spectrum> gathered_;  ///< of the pixels; empty without bundles
+    const int rows_between_reports_;
     const std::vector<int> first_rows_;  ///< between reports, in the order that they are worked on
     std::vector<PixelRecord> records_;
     std::vector<Target> targets_;

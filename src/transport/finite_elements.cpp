@@ -33,6 +33,16 @@ void add(PatchSums& s, const Received& block, double weight) {
 
 }  // namespace
 
+PatchSums& operator+=(PatchSums& a, const PatchSums& b) {
+    a.received += b.received;
+    a.coverage += b.coverage;
+    a.fragments += b.fragments;
+    a.received_squared += b.received_squared;
+    a.received_coverage += b.received_coverage;
+    a.coverage_squared += b.coverage_squared;
+    return a;
+}
+
 FiniteElementComponent::FiniteElementComponent(const SurfaceMesh& mesh,
                                                const PatchHierarchy& patches,
                                                const PatchSources& sources, const Workers& workers)
@@ -107,12 +117,8 @@ void FiniteElementComponent::restart() {
 PatchSums FiniteElementComponent::with_earlier(std::uint32_t patch) const {
     PatchSums s = sums_[patch];
     if (earlier_.empty()) return s;
-    const PatchSums& e = earlier_[patch];
-    s.received += e.received;
-    s.coverage += e.coverage;
-    s.received_squared += e.received_squared;
-    s.received_coverage += e.received_coverage;
-    s.coverage_squared += e.coverage_squared;
+    s += earlier_[patch];
+    s.fragments = sums_[patch].fragments;  // which no restart sets aside
     return s;
 }
 

@@ -31,6 +31,7 @@ struct PatchSums {
     SpectrumSum received_coverage{0.0};
     double coverage_squared = 0.0;
 };
+PatchSums& operator+=(PatchSums& a, const PatchSums& b);
 
 /// All that the component has summed up, for the current average.
 struct FiniteElementSums {

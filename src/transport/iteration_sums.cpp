@@ -13,16 +13,6 @@ PatchSums part_of(const PatchSums& s, double share) {
             square * s.received_squared, square * s.received_coverage, square * s.coverage_squared};
 }
 
-PatchSums& operator+=(PatchSums& a, const PatchSums& b) {
-    a.received += b.received;
-    a.coverage += b.coverage;
-    a.fragments += b.fragments;
-    a.received_squared += b.received_squared;
-    a.received_coverage += b.received_coverage;
-    a.coverage_squared += b.coverage_squared;
-    return a;
-}
-
 /// The square of a sum of n equal terms is n times the sum of their squares, and never more.
 PatchSums united(std::span<const LeafShare> parts, std::span<const PatchSums> sums,
                  std::uint32_t offset, double scale) {

@@ -67,6 +67,8 @@ TEST_F(Messages, AreKeptInTheLogWhateverIsShown) {
     EXPECT_EQ(run("render none.vtm -o a.png --log-file bake.log").exit_code, 4);
     EXPECT_TRUE(read("bake.log").starts_with(log));
     EXPECT_THAT(read("bake.log"), HasSubstr("none.vtm"));
+    EXPECT_EQ(run("info none.vtm --log-file info.log").exit_code, 4);
+    EXPECT_THAT(read("info.log"), testing::AllOf(HasSubstr("command "), HasSubstr("error ")));
     const Outcome nowhere = bake("--log-file missing.dir/../room.obj/bake.log");
     EXPECT_EQ(nowhere.exit_code, 4);
     EXPECT_THAT(nowhere.err, HasSubstr("bake.log"));

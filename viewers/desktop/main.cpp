@@ -45,8 +45,9 @@ void add_options(CLI::App& program, Arguments& a) {
     program.add_option("--exposure", a.exposure, "stops beside automatic exposure")
         ->check(CLI::Range(-30.0, 30.0))
         ->capture_default_str();
-    program.add_flag("!--no-auto-exposure", a.automatic,
-                     "a radiance of 1 is white (default: middle grey is the median)");
+    program.add_flag_callback(
+        "--no-auto-exposure", [&a] { a.automatic = false; },
+        "a radiance of 1 is white (default: middle grey is the median)");
     program.add_option("--width", a.width, "of the window [pixels]")
         ->check(CLI::Range(64, 8192))
         ->capture_default_str();

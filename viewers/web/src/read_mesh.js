@@ -80,7 +80,14 @@ export function readGlb(bytes, file) {
       || view.getUint32(8, true) !== bytes.byteLength)
     throw new Problem(file, 'is no whole binary glTF file');
   const length = view.getUint32(12, true);
-  const json = JSON.parse(new TextDecoder().decode(new Uint8Array(bytes, 20, length)));
+  let json;
+  try {
+    json = JSON.parse(new TextDecoder().decode(new Uint8Array(bytes, 20, length)));
+  } catch (error) {
+    throw new Problem(file, `holds no JSON (${error.message})`);
+  }
+  if (json.asset?.generator !== 'transillum' || !json.materials?.[0]?.extensions?.KHR_materials_unlit)
+    throw new Problem(file, 'is of another program; accepted: what transillum export writes');
   const start = 20 + length + 8;
   const values = (number, Type, components) => {
     const accessor = json.accessors[number];

@@ -46,6 +46,7 @@ export class View {
     // Front and back of a surface lie in one place.
     property.setBackfaceCulling(true);
     property.setEdgeColor(0.1, 0.1, 0.1);
+    property.setEdgeVisibility(Boolean(this.edges));
     this.renderer.removeAllViewProps();
     this.renderer.addActor(this.actor);
     this.size = Math.hypot(...box.high.map((high, c) => high - box.low[c]));
@@ -69,6 +70,7 @@ export class View {
   }
 
   setEdges(on) {
+    this.edges = on;
     this.actor.getProperty().setEdgeVisibility(on);
     this.draw();
   }

@@ -3,6 +3,7 @@
 import assert from 'node:assert/strict';
 import { execFileSync, spawn } from 'node:child_process';
 import fs from 'node:fs';
+import http from 'node:http';
 import path from 'node:path';
 import { after, before, test } from 'node:test';
 import validator from 'gltf-validator';
@@ -113,6 +114,8 @@ test('names what is wrong with a file', async () => {
     [[['cells.vtp', Buffer.from(wrong([/(Name="Radiance" NumberOfComponents=)"3"/, '$1"2"']), 'latin1')]],
       /cells\.vtp: array 'Radiance' holds .* accepted: \d+, one a cell/],
     [[['cut.glb', fs.readFileSync(work('box.glb')).subarray(0, 5000)]], /cut\.glb: is no whole binary glTF/],
+    [[['other.glb', Buffer.from(fs.readFileSync(work('box.glb'), 'latin1').replace('"transillum"', '"something_"'), 'latin1')]],
+      /other\.glb: is of another program/],
     [[['cut.ply', fs.readFileSync(work('box.ply')).subarray(0, 5000)]], /cut\.ply: is no whole PLY/],
     [[['picture.png', 'x']], /picture\.png: cannot be opened; accepted: .*\.vtp/],
   ];
@@ -132,13 +135,18 @@ test('says so where there is no WebGL', async () => {
 });
 
 test('serves nothing but the page and the solution, to this machine', async () => {
-  const status = async (at, headers = {}) => (await fetch(new URL(at, url), { headers })).status;
+  const status = async (at) => (await fetch(new URL(at, url))).status;
   fs.writeFileSync(work('secret.txt'), 'secret');
   fs.symlinkSync(work('secret.txt'), work('box/link.txt'));
   assert.equal(await status('solution/box/radiance.vtp'), 200);
   for (const at of ['solution/secret.txt', 'solution/box/..%2f..%2fsecret.txt', 'solution/box/link.txt',
     'solution/box/', 'share/', '%2e%2e/secret.txt'])
     assert.equal(await status(at), 404, at);
+  // A page of another site, by a name that it lets stand for this machine. (fetch sets Host itself.)
+  const foreign = await new Promise((ok) => {
+    http.get(url, { headers: { Host: 'elsewhere.example' } }, (answer) => ok(answer.statusCode));
+  });
+  assert.equal(foreign, 403);
   assert.ok(url.startsWith('http://127.0.0.1:'));
 });
 
