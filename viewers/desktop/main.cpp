@@ -1,4 +1,5 @@
 // transillum-view: walks through a solution in a window.
+#include "require_display.h"
 #include "solution_view.h"
 #include "walk_style.h"
 
@@ -61,8 +62,7 @@ void add_options(CLI::App& program, Arguments& a) {
 }
 
 int run(const Arguments& a) {
-    if (!std::getenv("DISPLAY"))
-        throw IoError("the window", "cannot be opened: no X display (DISPLAY is not set)");
+    require_display();
     const Workers workers(a.threads);
     SpectralSolution solution = load_spectral_solution(a.solution);
     const Camera camera = choose_camera(solution.rgb.cameras, solution.rgb.surface, a.camera);

@@ -33,7 +33,8 @@ class Screen:
     def __enter__(self):
         read, write = os.pipe()
         self.server = subprocess.Popen(
-            ['Xvfb', '-displayfd', str(write), '-screen', '0', '1280x1024x24', '-nolisten', 'tcp'],
+            ['Xvfb', '-displayfd', str(write), '-screen', '0', '1280x1024x24', '-nolisten', 'tcp',
+             '-noreset'],  # when a client leaves: others could not connect then
             pass_fds=[write], stderr=subprocess.DEVNULL)
         os.close(write)
         with os.fdopen(read) as number:
@@ -142,8 +143,9 @@ def main(viewer, program, scene, folder):
             failed = run(viewer, *words, ok=False, env=screen.environment)
             expect(failed.returncode == code and named in failed.stderr, (words, failed.returncode, failed.stderr))
     blind = {name: value for name, value in os.environ.items() if name != 'DISPLAY'}
-    failed = run(viewer, box, ok=False, env=blind)
-    expect(failed.returncode == 4 and 'DISPLAY' in failed.stderr, failed.stderr)
+    for environment in (blind, dict(blind, DISPLAY=':4711')):
+        failed = run(viewer, box, ok=False, env=environment)
+        expect(failed.returncode == 4 and 'DISPLAY' in failed.stderr, failed.stderr)
 
 
 if shutil.which('Xvfb') is None or shutil.which('xdotool') is None:
