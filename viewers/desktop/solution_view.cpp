@@ -126,7 +126,8 @@ SolutionView::SolutionView(SpectralSolution solution, std::string name, const Wo
     renderer_->AddActor(actor_);
     renderer_->AddActor2D(bar_);
     window_->AddRenderer(renderer_);
-    window_->SetMultiSamples(4);
+    // By a software renderer, 270 000 leaves at 800x600: 4 samples 6 frames a second, 1 sample 12.
+    window_->SetMultiSamples(0);
     window_->SetWindowName(("transillum: " + name_).c_str());
     look(choose_camera(cameras_, solution_.rgb.surface, ""));
     colour();

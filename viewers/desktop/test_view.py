@@ -128,7 +128,7 @@ def main(viewer, program, scene, folder):
             run(viewer, *words, '--screenshot', folder / name, env=screen.environment)
             return folder / name
 
-        # Edges are blended otherwise: 5 %.
+        # Edges are sharp in the window and blended in the picture.
         seen = shot('seen.png', *at_front)
         run(program, 'compare', seen, rendered, '--fail-above', 0.1)
         corner = shot('corner.png', *at_front[:1], '--camera', 'corner', *at_front[3:])

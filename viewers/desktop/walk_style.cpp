@@ -22,7 +22,7 @@ vtkStandardNewMacro(WalkStyle);
 namespace {
 
 constexpr double shares_a_second = 0.2;
-constexpr unsigned long frame_milliseconds = 30;
+constexpr unsigned long frame_milliseconds = 10;  ///< longer ones leave pauses between frames
 constexpr double degrees_a_pixel = 0.2;
 constexpr double stops_a_key = 0.5;
 /// Pitch ends before the view is straight up or down.
