@@ -82,7 +82,8 @@ void add_options(CLI::App& command, BakeArguments& a) {
     const char* const patches = "Patches";
     command
         .add_option("--leaves", a.bake.subdivision.leaf_target,
-                    "about so many leaf patches; 0: 30000 more than triangles")
+                    "about so many leaf patches, alike in size; 0: 30000 more than triangles or "
+                    "twice as many, as far as these are large")
         ->check(CLI::Range(0u, 1u << 28))
         ->capture_default_str()
         ->group(patches);

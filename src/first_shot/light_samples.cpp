@@ -127,11 +127,12 @@ LightSample sample_of(const PunctualLight& light, std::uint32_t number) {
     return s;
 }
 
-/// About 128 in all, between 4 and 64 each, a power of two: the sequence fills strata then.
+/// About 128 in all, up to 256 for the sake of 8 each, and between 4 and 64 each; a power of two:
+/// the sequence fills strata then.
 int samples_for(std::size_t luminaires) {
-    const auto each = static_cast<unsigned>(
-        std::clamp<std::size_t>(128 / std::max<std::size_t>(luminaires, 1), 4, 64));
-    return static_cast<int>(std::bit_floor(each));
+    const std::size_t count = std::max<std::size_t>(luminaires, 1);
+    const std::size_t each = std::max(128 / count, std::min<std::size_t>(256 / count, 8));
+    return static_cast<int>(std::bit_floor(std::clamp<std::size_t>(each, 4, 64)));
 }
 
 }  // namespace

@@ -6,14 +6,19 @@
 #include <glm/geometric.hpp>
 
 #include <cmath>
+#include <numbers>
 #include <string>
 
 namespace transillum {
 
 namespace {
 
-/// Beyond one a triangle: enough for the walls of a room.
-constexpr std::size_t leaves_by_default = 30000;
+/// Beyond one a triangle: enough for the walls of a room, and as many as there are triangles where
+/// furniture makes the most of these.
+constexpr std::size_t least_leaves_beyond = 30000;
+/// Of the surface. By default nothing smaller is divided for the sake of the count: a fine mesh is
+/// its own subdivision.
+constexpr double smallest_share = 1.0 / 240000.0;
 
 double longest_edge(const SurfaceMesh& mesh, const RootTriangle& t) {
     double longest = 0.0;
@@ -21,6 +26,17 @@ double longest_edge(const SurfaceMesh& mesh, const RootTriangle& t) {
         longest = std::max(longest, glm::distance(mesh.positions[t.vertices[i]],
                                                   mesh.positions[t.vertices[(i + 1) % 3]]));
     return longest;
+}
+
+double edge_of_equilateral(double area) {
+    return std::sqrt(area / (0.25 * std::numbers::sqrt3));
+}
+
+/// By edges alone slivers, of which a repaired scene has many, would take most of the leaves that
+/// are to be had; by area alone leaves would be long where light changes along a sliver.
+double size_of(const SurfaceMesh& mesh, std::uint32_t root) {
+    return std::sqrt(longest_edge(mesh, mesh.triangles[root]) *
+                     edge_of_equilateral(area_of(mesh, root)));
 }
 
 int level_for(double edge, double patch_size, int max_level) {
@@ -33,14 +49,14 @@ int level_for(double edge, double patch_size, int max_level) {
 }
 
 /// The largest size, by bisection of its logarithm, that makes at least `target` leaves.
-double size_for_count(const std::vector<double>& edges, double target, int max_level) {
-    double large = *std::max_element(edges.begin(), edges.end());
+double size_for_count(const std::vector<double>& sizes, double target, int max_level) {
+    double large = *std::max_element(sizes.begin(), sizes.end());
     double small = std::ldexp(large, -max_level - 1);
     for (int step = 0; step < 40; ++step) {
         const double middle = std::sqrt(small * large);
         double leaves = 0.0;
-        for (const double edge : edges)
-            leaves += std::ldexp(1.0, 2 * level_for(edge, middle, max_level));
+        for (const double size : sizes)
+            leaves += std::ldexp(1.0, 2 * level_for(size, middle, max_level));
         (leaves >= target ? small : large) = middle;
     }
     return small;
@@ -101,15 +117,25 @@ PatchHierarchy subdivide_uniformly(const SurfaceMesh& mesh, const SubdivisionOpt
     if (options.max_level < 0 || options.max_level > max_subdivision_level)
         throw UsageError("max level " + std::to_string(options.max_level) + "; accepted: 0 to " +
                          std::to_string(max_subdivision_level));
-    std::vector<double> edges;
-    for (const RootTriangle& t : mesh.triangles) edges.push_back(longest_edge(mesh, t));
-    const double target = options.leaf_target > 0
-                              ? options.leaf_target
-                              : static_cast<double>(edges.size() + leaves_by_default);
-    const double size = options.patch_size > 0.0 ? options.patch_size
-                                                 : size_for_count(edges, target, options.max_level);
+    const bool by_count = options.patch_size == 0.0;
+    std::vector<double> sizes;
+    double surface = 0.0;
+    for (std::uint32_t r = 0; r < mesh.triangles.size(); ++r) {
+        sizes.push_back(by_count ? size_of(mesh, r) : longest_edge(mesh, mesh.triangles[r]));
+        surface += area_of(mesh, r);
+    }
+    double size = options.patch_size;
+    if (by_count && options.leaf_target > 0)
+        size = size_for_count(sizes, options.leaf_target, options.max_level);
+    else if (by_count)
+        size = std::max(
+            edge_of_equilateral(smallest_share * surface),
+            size_for_count(
+                sizes,
+                static_cast<double>(sizes.size() + std::max(sizes.size(), least_leaves_beyond)),
+                options.max_level));
     std::vector<int> levels;
-    for (const double edge : edges) levels.push_back(level_for(edge, size, options.max_level));
+    for (const double s : sizes) levels.push_back(level_for(s, size, options.max_level));
     return subdivide_to_levels(levels);
 }
 

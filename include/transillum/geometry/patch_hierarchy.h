@@ -141,12 +141,15 @@ struct LeafCorners {
 
 struct SubdivisionOptions {
     double patch_size = 0.0;  ///< longest edge a leaf may have [scene units]; 0: from leaf_target
-    std::uint32_t leaf_target = 0;  ///< the size is chosen so that there are about this many
-                                    ///< leaves; 0: 30000 more than triangles
+    /// Leaves are made about alike in size, the geometric mean of their longest edge and that of
+    /// an equilateral triangle of their area, so that there are about this many. 0: 30000 more
+    /// than triangles, or twice as many as these, but none of less than a 240000th of the surface
+    /// is divided.
+    std::uint32_t leaf_target = 0;
     int max_level = 8;              ///< at most max_subdivision_level
 };
 
-/// Subdivides every root until its leaves' longest edge is at most the patch size.
+/// Subdivides every root until its leaves' longest edge is at most the patch size, or by count.
 /// \throws UsageError on a negative size, a level outside [0, max_subdivision_level], or above 2^30
 /// leaves.
 [[nodiscard]] PatchHierarchy subdivide_uniformly(const SurfaceMesh& mesh,

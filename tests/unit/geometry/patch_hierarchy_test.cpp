@@ -178,6 +178,40 @@ TEST(SubdivideUniformly, ReachesTheNumberOfLeavesAskedFor) {
               4 * mesh.triangles.size());
 }
 
+/// A wall beside slivers as of mouldings, each as long as the wall.
+TEST(SubdivideUniformly, LeavesItsLeavesToWhatHasArea) {
+    SceneBuilder builder;
+    builder.polygon({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+    for (int i = 0; i < 200; ++i)
+        builder.polygon({{0, 0, 1.0 + i}, {1, 0, 1.0 + i}, {0, 1e-4, 1.0 + i}});
+    const SurfaceMesh mesh = builder.surface();
+    const PatchHierarchy patches = subdivide_uniformly(mesh, {.leaf_target = 1500});
+    EXPECT_GE(patches.leaves_of(0), 1024u);
+    EXPECT_GT(patches.leaves_of(1), 1u) << "light may change along a sliver, too";
+    EXPECT_LE(patches.leaves_of(1), 4u);
+}
+
+TEST(SubdivideUniformly, DividesByDefaultWhatIsLargeAmongManyTriangles) {
+    SceneBuilder builder;
+    builder.sphere({0, 0, 0}, 0.1, 300, Facing::outwards);
+    builder.box({-1, -1, -1}, {1, 1, 1}, Facing::inwards);
+    const SurfaceMesh mesh = builder.surface();
+    const auto triangles = static_cast<std::uint32_t>(mesh.triangles.size());
+    ASSERT_GT(triangles, 60000u);
+    const PatchHierarchy patches = subdivide_uniformly(mesh, {});
+    EXPECT_GE(patches.leaf_count, 2 * triangles);
+    EXPECT_EQ(patches.leaves_of(0), 1u) << "of the sphere";
+    EXPECT_GE(patches.leaves_of(triangles - 1), 4096u) << "of a wall";
+}
+
+TEST(SubdivideUniformly, LeavesAFineMeshAsItIs) {
+    SceneBuilder builder;
+    builder.sphere({0, 0, 0}, 1.0, 800, Facing::outwards);
+    const SurfaceMesh mesh = builder.surface();
+    ASSERT_GT(mesh.triangles.size(), 400000u);
+    EXPECT_LT(subdivide_uniformly(mesh, {}).leaf_count, mesh.triangles.size() + 30000);
+}
+
 TEST(SubdivideUniformly, RefusesWhatItCannotDo) {
     SceneBuilder builder;
     builder.box({0, 0, 0}, {1, 1, 1}, Facing::outwards);
