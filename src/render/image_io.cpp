@@ -3,6 +3,7 @@
 #include <transillum/base/error.h>
 #include <transillum/render/image.h>
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
 #include <unistd.h>
@@ -68,8 +69,10 @@ Raster display_raster(const Image& image, const ToneMapping& tone) {
     return raster;
 }
 
-void write_raster(const Raster& raster, const fs::path& path, const fs::path& named) {
-    auto file = OIIO::ImageOutput::create(path.string());
+/// \param memory null: into a file of that name
+void write_raster(const Raster& raster, const fs::path& path, const fs::path& named,
+                  OIIO::Filesystem::IOProxy* memory = nullptr) {
+    auto file = OIIO::ImageOutput::create(path.string(), memory);
     if (!file) throw IoError(named.string(), "cannot write: " + OIIO::geterror());
     OIIO::ImageSpec spec(raster.width, raster.height, static_cast<int>(raster.channels.size()),
                          raster.stored_as);
@@ -118,6 +121,15 @@ void write_image(const Image& image, const fs::path& path, const ToneMapping& to
     if (!failed) return;
     fs::remove(partial, ignored);
     throw IoError(path.string(), "cannot write: " + failed.message());
+}
+
+std::string png_bytes(const Image& image, const ToneMapping& tone) {
+    const fs::path named = "picture.png";
+    check_pixels(image, named);
+    std::vector<unsigned char> bytes;
+    OIIO::Filesystem::IOVecOutput memory(bytes);
+    write_raster(display_raster(image, tone), named, named, &memory);
+    return {bytes.begin(), bytes.end()};
 }
 
 Image read_image(const fs::path& path) {

@@ -1,5 +1,5 @@
 #include "render/hanging_vertices.h"
-#include "render/patch_areas.h"
+#include "render/surface_radiance.h"
 #include "render/tone_mapping.h"
 #include "render/vertex_grid.h"
 
@@ -8,67 +8,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <span>
 #include <utility>
 
 namespace transillum {
 
 namespace {
 
-/// The radiance of each patch, or of each vertex of the grid, first as seen from the front, then
-/// from the back.
-using Values = std::vector<Spectrum>;
-
-Values values_of(const Solution& s, const VertexGrid* grid, const Components& components,
-                 const Workers& workers) {
-    const std::uint32_t leaves = s.patches.leaf_count;
-    Values steady(s.patches.patch_count()), estimated(s.patches.patch_count());
-    for (std::uint32_t p = 0; p < s.patches.patch_count(); ++p) {
-        steady[p] = (components.emission ? s.emission(p) : Spectrum(0.0f)) +
-                    (components.direct ? s.direct_radiance(p) : Spectrum(0.0f));
-        if (components.finite_element) estimated[p] = s.finite_element_radiance(p);
-    }
-    if (!grid) {
-        std::ranges::transform(steady, estimated, steady.begin(), std::plus());
-        return steady;
-    }
-    Values values;
-    const std::vector<float> areas = patch_areas(s);
-    for (const std::uint32_t side : {0u, leaves}) {
-        const auto interpolate = [&](const Values& of_patches, const std::vector<float>& weights) {
-            return vertex_values(*grid, std::span(of_patches).subspan(side, leaves),
-                                 std::span(weights).subspan(side, leaves), workers);
-        };
-        const Values known = interpolate(steady, areas);
-        const Values found = interpolate(estimated, s.coverage);
-        for (std::size_t v = 0; v < known.size(); ++v) values.push_back(known[v] + found[v]);
-    }
-    return values;
-}
-
-Values values_of(const SpectralSolution& spectral, const VertexGrid* grid,
-                 const Components& components, const Workers& workers) {
-    if (spectral.groups.empty()) return values_of(spectral.rgb, grid, components, workers);
-    const Bands bands(spectral.bands);
-    Solution solution = spectral.rgb;
-    std::vector<SpectrumSum> sums;  // double, as all of a picture's bands
-    for (int g = 0; g < bands.groups(); ++g) {
-        put_into_group(solution, spectral, bands, g);
-        const Values values = values_of(solution, grid, components, workers);
-        sums.resize(values.size(), SpectrumSum(0.0));
-        for (std::size_t i = 0; i < values.size(); ++i)
-            sums[i] += bands.rgb_from_group(g) * SpectrumSum(values[i]);
-    }
-    Values result;
-    // Pure colours lie outside sRGB.
-    for (const SpectrumSum& sum : sums) result.emplace_back(glm::max(sum, SpectrumSum(0.0)));
-    return result;
-}
-
 class MeshBuilder {
 public:
-    MeshBuilder(const Solution& solution, const VertexGrid& grid, Values values, bool interpolate)
+    MeshBuilder(const Solution& solution, const VertexGrid& grid,
+                std::vector<Spectrum> values, bool interpolate)
         : solution_(solution),
           grid_(grid),
           hanging_(grid),
@@ -144,9 +93,10 @@ private:
     const Solution& solution_;
     const VertexGrid& grid_;
     const HangingVertices hanging_;
-    const Values values_;
+    /// Of each patch or vertex, see surface_radiance().
+    const std::vector<Spectrum> values_;
     const bool interpolate_;
-    std::vector<std::uint32_t> numbers_;  ///< in the mesh: of the grid's, as Values has them
+    std::vector<std::uint32_t> numbers_;  ///< in the mesh: of the grid's, as values_ has them
     std::vector<float> emits_;
     RadianceMesh mesh_;
 };
@@ -157,9 +107,11 @@ RadianceMesh make_radiance_mesh(const SpectralSolution& spectral,
                                 const RadianceMeshOptions& options, const Workers& workers) {
     const Solution& solution = spectral.rgb;
     const VertexGrid grid = build_vertex_grid(solution.surface, solution.patches);
-    Values values =
-        values_of(spectral, options.interpolate ? &grid : nullptr, options.components, workers);
-    MeshBuilder builder(solution, grid, std::move(values), options.interpolate);
+    MeshBuilder builder(
+        solution, grid,
+        surface_radiance(spectral, options.interpolate ? &grid : nullptr, options.components,
+                         workers),
+        options.interpolate);
     RadianceMesh mesh = builder.build();
     const float factor = exposure_factor(mesh.radiance, builder.emitter_mask(), options.tone);
     mesh.exposure = std::log2(double{factor});

@@ -37,6 +37,9 @@ void save_radiance_mesh(const RadianceMesh& mesh, const std::filesystem::path& p
     const Format& format = format_of(path);
     if (mesh.triangles.empty())
         throw InputError(path.string(), "nothing to write: no side of the solution shines");
+    if (!mesh.lightmap_uvs.empty() && format.bytes != mesh_glb)
+        throw UsageError(path.string() + ": extension '" + path.extension().string() +
+                         "' with a lightmap; accepted: .glb");
     StagedFiles files(path);
     files.write_main(format.bytes(mesh, path));
     files.put_in_place();

@@ -46,6 +46,9 @@ struct ToneMapping {
 void write_image(const Image& image, const std::filesystem::path& path,
                  const ToneMapping& tone = {});
 
+/// What write_image() would write as .png. \throws as it
+[[nodiscard]] std::string png_bytes(const Image& image, const ToneMapping& tone = {});
+
 /// Reads what OpenImageIO reads; PNG and other 8-bit images are taken as sRGB and made linear.
 /// \throws IoError, InputError.
 [[nodiscard]] Image read_image(const std::filesystem::path& path);

@@ -60,8 +60,10 @@ public:
         root_["asset"] = {{"version", "2.0"},
                           {"generator", "transillum"},
                           {"extras", {{"exposure", mesh_.exposure}}}};
-        root_["materials"] = {
-            {{"name", "radiance"}, {"extensions", {{"KHR_materials_unlit", Json::object()}}}}};
+        Json material{{"name", "radiance"},
+                      {"extensions", {{"KHR_materials_unlit", Json::object()}}}};
+        if (has_lightmap()) add_lightmap(material);
+        root_["materials"] = {std::move(material)};
         root_["extensionsUsed"] = {"KHR_materials_unlit"};
         root_["buffers"] = {{{"byteLength", bytes_.size()}}};
         // Names from other formats may be in another encoding than UTF-8.
@@ -79,16 +81,37 @@ private:
         return root_[array].size() - 1;
     }
 
+    [[nodiscard]] bool has_lightmap() const { return !mesh_.lightmap_uvs.empty(); }
+
+    std::size_t view_of(std::string_view bytes) {
+        const std::size_t offset = bytes_.size();
+        bytes_ += bytes;
+        bytes_.resize((bytes_.size() + 3) / 4 * 4, '\0');  // accessors begin at multiples of 4
+        return add("bufferViews",
+                   {{"buffer", 0}, {"byteOffset", offset}, {"byteLength", bytes.size()}});
+    }
+
+    /// Linear filtering without mip levels, which would mix charts.
+    void add_lightmap(Json& material) {
+        constexpr int linear = 9729, clamp_to_edge = 33071;
+        root_["samplers"] = {{{"magFilter", linear},
+                              {"minFilter", linear},
+                              {"wrapS", clamp_to_edge},
+                              {"wrapT", clamp_to_edge}}};
+        root_["images"] = {{{"name", "lightmap"},
+                            {"mimeType", "image/png"},
+                            {"bufferView", view_of(mesh_.lightmap_png)}}};
+        root_["textures"] = {{{"sampler", 0}, {"source", 0}}};
+        material["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 0}, {"texCoord", 1}};
+    }
+
     template <class Value>
     std::size_t accessor(const std::vector<Value>& values, std::size_t count, int component,
                          const char* type, int target, Json bounds = Json::object()) {
         const std::string_view bytes(reinterpret_cast<const char*>(values.data()),
                                      values.size() * sizeof(Value));
-        const std::size_t view = add("bufferViews", {{"buffer", 0},
-                                                     {"byteOffset", bytes_.size()},
-                                                     {"byteLength", bytes.size()},
-                                                     {"target", target}});
-        bytes_ += bytes;
+        const std::size_t view = view_of(bytes);
+        root_["bufferViews"][view]["target"] = target;
         bounds.update(
             {{"bufferView", view}, {"componentType", component}, {"count", count}, {"type", type}});
         return add("accessors", std::move(bounds));
@@ -105,10 +128,16 @@ private:
                 indices.push_back(numbers_[v]);
             }
         std::vector<glm::vec3> positions, colours;
+        std::vector<glm::vec2> uvs, lightmap_uvs;
         for (const std::uint32_t v : vertices) {
             numbers_[v] = none;
             positions.emplace_back(mesh_.positions[v] - middle_);
-            colours.push_back(mesh_.display[v]);
+            if (!has_lightmap()) {
+                colours.push_back(mesh_.display[v]);
+                continue;
+            }
+            lightmap_uvs.push_back(mesh_.lightmap_uvs[v]);
+            uvs.push_back(mesh_.uvs.empty() ? mesh_.lightmap_uvs[v] : mesh_.uvs[v]);
         }
         glm::vec3 low = positions.front(), high = low;
         for (const glm::vec3& p : positions) {
@@ -120,7 +149,13 @@ private:
         Json attributes;
         attributes["POSITION"] =
             accessor(positions, count, float_type, "VEC3", vertex_target, bounds);
-        attributes["COLOR_0"] = accessor(colours, count, float_type, "VEC3", vertex_target);
+        if (has_lightmap()) {
+            attributes["TEXCOORD_0"] = accessor(uvs, count, float_type, "VEC2", vertex_target);
+            attributes["TEXCOORD_1"] =
+                accessor(lightmap_uvs, count, float_type, "VEC2", vertex_target);
+        } else {
+            attributes["COLOR_0"] = accessor(colours, count, float_type, "VEC3", vertex_target);
+        }
         return {{"attributes", std::move(attributes)},
                 {"indices", accessor(indices, indices.size(), uint_type, "SCALAR", index_target)},
                 {"material", 0}};

@@ -99,7 +99,7 @@ export function readGlb(bytes, file) {
   for (const mesh of json.meshes ?? [])
     for (const primitive of mesh.primitives) {
       if (primitive.attributes.COLOR_0 === undefined)
-        throw new Problem(file, 'holds no COLOR_0; accepted: what transillum export writes');
+        throw new Problem(file, 'holds no COLOR_0, as with a lightmap; accepted: what transillum export writes without one');
       const first = points.length / 3;
       values(primitive.attributes.POSITION, Float32Array, 3)
         .forEach((x, i) => points.push(x + move[i % 3]));

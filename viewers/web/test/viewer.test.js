@@ -22,6 +22,7 @@ before(async () => {
   run('-q', 'bake', SCENE, '-o', 'box.vtm', '--leaves', '2000', '--iterations', '64', '--refine', '1');
   run('-q', 'export', 'box.vtm', '-o', 'box.glb', '-o', 'box.ply', '-o', 'flat.vtp',
     '--no-auto-exposure', '--exposure', String(stops));
+  run('-q', 'export', 'box.vtm', '-o', 'lightmap.glb', '--lightmap', 'lightmap.exr');
   // As the page shows it: a radiance a patch, and no shadow rays.
   for (const [name, more] of [['flat', ['--flat']], ['smooth', []]])
     run('-q', 'render', 'box.vtm', '-o', `${name}.png`, '--camera', 'front', '--size', '500x500', '--direct',
@@ -111,11 +112,12 @@ test('names what is wrong with a file', async () => {
     [[['box.vtm', index]], /box\/radiance\.vtp: is missing/],
     [[['box.vtm', index], radiance], /box\/surface\.vtp: is missing/],
     [[['cut.vtp', radiance[1].subarray(0, 5000)]], /cut\.vtp: cannot be read/],
-    [[['cells.vtp', Buffer.from(wrong([/(Name="Radiance" NumberOfComponents=)"3"/, '$1"2"']), 'latin1')]],
+    [[['cells.vtp', Buffer.from(wrong([/(Name="Radiance" NumberOfComponents=)"3"/, '$1"1"']), 'latin1')]],
       /cells\.vtp: array 'Radiance' holds .* accepted: \d+, one a cell/],
     [[['cut.glb', fs.readFileSync(work('box.glb')).subarray(0, 5000)]], /cut\.glb: is no whole binary glTF/],
     [[['other.glb', Buffer.from(fs.readFileSync(work('box.glb'), 'latin1').replace('"transillum"', '"something_"'), 'latin1')]],
       /other\.glb: is of another program/],
+    [[['lightmap.glb', fs.readFileSync(work('lightmap.glb'))]], /lightmap\.glb: holds no COLOR_0, as with a lightmap/],
     [[['cut.ply', fs.readFileSync(work('box.ply')).subarray(0, 5000)]], /cut\.ply: is no whole PLY/],
     [[['picture.png', 'x']], /picture\.png: cannot be opened; accepted: .*\.vtp/],
   ];
@@ -155,4 +157,13 @@ test('export writes glTF that the Khronos validator passes', async () => {
   assert.deepEqual(report.issues.messages, []);
   assert.equal(report.issues.numErrors + report.issues.numWarnings, 0);
   assert.ok(report.info.totalTriangleCount > 2000);
+});
+
+test('export with a lightmap writes glTF that the Khronos validator passes', async () => {
+  const report = await validator.validateBytes(new Uint8Array(fs.readFileSync(work('lightmap.glb'))));
+  // The first set of UVs is for what textures the program adds.
+  assert.deepEqual([...new Set(report.issues.messages.map((m) => m.code))], ['UNUSED_OBJECT']);
+  assert.equal(report.issues.numErrors + report.issues.numWarnings, 0);
+  assert.ok(report.info.totalTriangleCount < 100);
+  assert.equal(report.info.resources.at(-1).image.format, 'rgb');
 });
