@@ -303,6 +303,15 @@ SolutionRenderer::~SolutionRenderer() = default;
 SolutionRenderer::SolutionRenderer(SolutionRenderer&&) noexcept = default;
 SolutionRenderer& SolutionRenderer::operator=(SolutionRenderer&&) noexcept = default;
 
+void SolutionRenderer::set_picture(int width, int height, std::uint64_t seed) {
+    if (std::min(width, height) < 1)
+        throw UsageError(fmt::format("a picture of {} x {} pixels; accepted: at least 1 x 1", width,
+                                     height));
+    options_.width = width;
+    options_.height = height;
+    options_.seed = seed;
+}
+
 Image SolutionRenderer::render(const Camera& camera, const Workers& workers, Monitor& monitor) {
     return Rendering(*shader_, gather_.get(), camera, options_, workers, monitor).render();
 }

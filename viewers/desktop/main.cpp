@@ -34,7 +34,7 @@ struct Arguments {
     std::string solution, camera, screenshot;
     int quantity = 1, width = 1024, height = 768, threads = 0;
     double exposure = 0.0;
-    bool automatic = true;
+    bool automatic = true, iterate = true;
 };
 
 void add_options(CLI::App& program, Arguments& a) {
@@ -55,6 +55,9 @@ void add_options(CLI::App& program, Arguments& a) {
     program.add_option("--height", a.height)->check(CLI::Range(64, 8192))->capture_default_str();
     program.add_option("--screenshot", a.screenshot,
                        "write what the window shows to this .png, without text, and end");
+    program.add_flag(
+        "--no-iteration{false}", a.iterate,
+        "show what is stored alone, also where the view stands still (key i)");
     program.add_option("--threads", a.threads, "0: as many as the machine has")
         ->capture_default_str();
     program.footer(std::string("Keys:\n") + key_help +
@@ -81,11 +84,14 @@ int run(const Arguments& a) {
     view.expose((a.automatic ? view.stops() : 0.0) + a.exposure);
     view.show(static_cast<std::size_t>(a.quantity - 1));
     if (!a.screenshot.empty()) {
-        view.hide_text();
+        view.toggle_text();
         view.save_picture(a.screenshot);
         return ExitCode::done;
     }
+    view.iterate_when_still(a.iterate);
     interactor->Initialize();
+    constexpr unsigned long look_milliseconds = 100;
+    interactor->CreateRepeatingTimer(look_milliseconds);
     interactor->Start();
     return ExitCode::done;
 }

@@ -36,14 +36,17 @@ const char* const key_help =
     "drag     look around         wheel forward\n"
     "c        next camera         b     bookmark this one\n"
     "p        values of a patch   x     edges of patches\n"
-    "F2       save a picture      h     this help\n"
-    "Esc      quit";
+    "i        go on with the iteration where the view stands still\n"
+    "F2       save a picture      t     text\n"
+    "Esc      quit                h     this help";
 
 namespace {
 
 /// All but a few outliers, which would leave no colours to the rest.
 constexpr double outliers = 0.005;
 constexpr int font_size = 14;
+/// After which a view is one that stands still.
+constexpr std::chrono::milliseconds stillness(400);
 
 vtkNew<vtkLookupTable> blue_to_yellow() {
     constexpr std::array<std::array<double, 3>, 9> viridis{{{0.267, 0.005, 0.329},
@@ -110,6 +113,12 @@ SolutionView::SolutionView(SpectralSolution solution, std::string name, const Wo
         text->BoldOff();
         text->ShadowOff();
     }
+    still_mapper_->SetInputData(still_data_);
+    still_mapper_->SetColorWindow(255.0);
+    still_mapper_->SetColorLevel(127.5);
+    still_actor_->SetMapper(still_mapper_);
+    still_actor_->VisibilityOff();
+    renderer_->AddActor2D(still_actor_);  // first: under the text
     for (vtkTextActor* const text : {title_.Get(), help_.Get()}) {
         const bool is_title = text == title_.Get();
         text->GetPositionCoordinate()->SetCoordinateSystemToNormalizedViewport();
@@ -214,6 +223,10 @@ void SolutionView::annotate() {
     const Quantity& quantity = quantities_[shown_];
     std::string title = name_ + ": " + quantity.name;
     if (quantity.is_picture) title += fmt::format(", exposure {:+.1f} stops", stops_);
+    if (still_)
+        title += fmt::format(", {} bundles", still_->pass * StillPicture::bundles);
+    else if (is_begun_)
+        title += ", iterating";
     if (picked_) title += "\n\n" + describe_patch(solution_.rgb, *picked_);
     title_->SetInput(title.c_str());
     help_->SetInput(helps_ ? key_help : "h: help");
@@ -222,6 +235,7 @@ void SolutionView::annotate() {
 void SolutionView::show(std::size_t quantity) {
     if (quantity >= quantities_.size()) return;
     shown_ = quantity;
+    stop_still_picture();
     colour();
     draw();
 }
@@ -229,12 +243,14 @@ void SolutionView::show(std::size_t quantity) {
 void SolutionView::expose(double stops) {
     stops_ = stops;
     if (quantities_[shown_].is_picture) colour();
+    if (still_) colour_still_picture();
     draw();
 }
 
 void SolutionView::toggle_edges() {
     vtkProperty& property = *actor_->GetProperty();
     property.SetEdgeVisibility(!property.GetEdgeVisibility());
+    stop_still_picture();
     draw();
 }
 
@@ -244,9 +260,9 @@ void SolutionView::toggle_help() {
     draw();
 }
 
-void SolutionView::hide_text() {
-    title_->VisibilityOff();
-    help_->VisibilityOff();
+void SolutionView::toggle_text() {
+    title_->SetVisibility(!title_->GetVisibility());
+    help_->SetVisibility(!help_->GetVisibility());
     draw();
 }
 
@@ -272,6 +288,68 @@ Camera SolutionView::camera() const {
     return {fmt::format("bookmark {}", cameras_.size() - solution_.rgb.cameras.size() + 1),
             point(view.GetPosition()) + middle_, point(view.GetFocalPoint()) + middle_,
             point(view.GetViewUp()), view.GetViewAngle()};
+}
+
+SolutionView::View SolutionView::view() const {
+    vtkCamera& camera = *renderer_->GetActiveCamera();
+    const auto point = [](const double* p) { return glm::dvec3(p[0], p[1], p[2]); };
+    const int* const size = window_->GetSize();
+    return {point(camera.GetPosition()), point(camera.GetFocalPoint()), point(camera.GetViewUp()),
+            camera.GetViewAngle(), size[0], size[1]};
+}
+
+void SolutionView::iterate_when_still(bool on) {
+    // Pictures of bands are sums of four or more, each with an iteration of its own.
+    iterates_ = on && solution_.groups.empty();
+    stop_still_picture();
+    draw();
+}
+
+void SolutionView::stop_still_picture() {
+    moved_at_ = std::chrono::steady_clock::now();
+    if (!is_begun_) return;
+    is_begun_ = false;
+    still_.reset();
+    still_actor_->VisibilityOff();
+    still_picture_->stop();
+    annotate();
+}
+
+void SolutionView::look_after_still_picture() {
+    if (!iterates_ || shown_ != 0 || actor_->GetProperty()->GetEdgeVisibility()) return;
+    if (!is_begun_) {
+        if (std::chrono::steady_clock::now() - moved_at_ < stillness) return;
+        // One thread is left to the window.
+        if (!still_picture_)
+            still_picture_ = std::make_unique<StillPicture>(solution_.rgb,
+                                                            std::max(1, workers_.count() - 1));
+        still_picture_->begin(camera(), window_->GetSize()[0], window_->GetSize()[1]);
+        is_begun_ = true;
+        annotate();
+        draw();
+    } else if (auto came = still_picture_->take()) {
+        still_ = std::move(came);
+        colour_still_picture();
+        draw();
+    }
+}
+
+void SolutionView::colour_still_picture() {
+    const Image& image = still_->image;
+    still_data_->SetDimensions(image.width, image.height, 1);
+    still_data_->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) {
+            const Spectrum shown = display_colour(image.at(x, y), stops_);
+            auto* const pixel = static_cast<unsigned char*>(
+                still_data_->GetScalarPointer(x, image.height - 1 - y, 0));
+            for (int i = 0; i < channel_count; ++i)
+                pixel[i] =
+                    static_cast<unsigned char>(std::lround(255.0f * srgb_from_linear(shown[i])));
+        }
+    still_data_->Modified();
+    still_actor_->VisibilityOn();
+    annotate();
 }
 
 void SolutionView::pick(int x, int y) {
@@ -301,6 +379,10 @@ void SolutionView::draw() {
     const double* const eye = view.GetPosition();
     const double distance = glm::length(glm::dvec3(eye[0], eye[1], eye[2]));
     view.SetClippingRange(1e-4 * size_, distance + size_);
+    if (const View now = this->view(); now != last_view_) {
+        last_view_ = now;
+        stop_still_picture();
+    }
     window_->Render();
 }
 

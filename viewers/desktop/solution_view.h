@@ -3,8 +3,12 @@
 #pragma once
 
 #include "quantities.h"
+#include "still_picture.h"
 
 #include <vtkActor.h>
+#include <vtkActor2D.h>
+#include <vtkImageData.h>
+#include <vtkImageMapper.h>
 #include <vtkNew.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
@@ -13,7 +17,9 @@
 #include <vtkScalarBarActor.h>
 #include <vtkTextActor.h>
 
+#include <chrono>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -36,7 +42,7 @@ public:
     void toggle_edges();
     void toggle_help();
     /// Title, help and what was picked; the colour map stays.
-    void hide_text();
+    void toggle_text();
 
     /// The solution's, and those that were bookmarked.
     [[nodiscard]] const std::vector<Camera>& cameras() const { return cameras_; }
@@ -49,6 +55,13 @@ public:
     void pick(int x, int y);
     [[nodiscard]] std::optional<std::uint32_t> picked() const { return picked_; }
 
+    /// Whether the iteration goes on where the view stands still; shown as total radiance.
+    void iterate_when_still(bool on);
+    void toggle_iteration() { iterate_when_still(!iterates_); }
+    /// To be called every so often: begins a picture when the view has stood still for a while, and
+    /// shows what came of it. Never waits.
+    void look_after_still_picture();
+
     /// \throws IoError
     void save_picture(const std::filesystem::path& path);
     void draw();
@@ -58,7 +71,17 @@ private:
     void colour();
     void colour_as_picture(const Quantity& quantity);
     void colour_by_map(const Quantity& quantity);
+    void colour_still_picture();
+    void stop_still_picture();
     void annotate();
+    /// What the picture depends on that may change by itself.
+    struct View {
+        glm::dvec3 eye, look_at, up;
+        double fov = 0.0;
+        int width = 0, height = 0;
+        bool operator==(const View&) const = default;
+    };
+    [[nodiscard]] View view() const;
 
     SpectralSolution solution_;
     const std::string name_;
@@ -73,9 +96,18 @@ private:
     bool helps_ = true;
     std::optional<std::uint32_t> picked_;
 
+    bool iterates_ = false, is_begun_ = false;
+    View last_view_;
+    std::chrono::steady_clock::time_point moved_at_;
+    std::optional<StillPicture::Shown> still_;
+    std::unique_ptr<StillPicture> still_picture_;  ///< null until first asked for
+
     vtkNew<vtkPolyData> data_;
     vtkNew<vtkPolyDataMapper> mapper_;
     vtkNew<vtkActor> actor_;
+    vtkNew<vtkImageData> still_data_;
+    vtkNew<vtkImageMapper> still_mapper_;
+    vtkNew<vtkActor2D> still_actor_;  ///< over the triangles
     vtkNew<vtkScalarBarActor> bar_;
     vtkNew<vtkTextActor> title_, help_;  ///< at the top, with what was picked; at the bottom
     vtkNew<vtkRenderer> renderer_;

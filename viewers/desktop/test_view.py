@@ -3,6 +3,7 @@
     test_view.py VIEWER PROGRAM SCENE FOLDER
 """
 
+import json
 import os
 import pathlib
 import select
@@ -75,6 +76,9 @@ class Window:
         expect(ready, 'F2 writes a picture')
         return pathlib.Path(self.viewer.stdout.readline().strip()).read_bytes()
 
+    def picture_to(self, path):
+        path.write_bytes(self.picture())
+
     def __enter__(self):
         return self
 
@@ -113,6 +117,36 @@ def use(window):
     expect(window.close() == 0, 'Escape ends it')
 
 
+def stand_still(window, folder, program):
+    """The iteration goes on, sharpens the picture, and is left at once for a view that moves."""
+    exact = folder / 'exact.png'
+    run(program, '-q', 'render', folder / 'box.vtm', '-o', exact, '--camera', 'front', '--size', '500x500', *EXPOSURE)
+
+    def difference(name):
+        window.picture_to(folder / name)
+        found = run(program, '-q', 'compare', folder / name, exact, '--json', ok=False).stdout
+        return json.loads(found)['relative_rmse']
+
+    window.do('key', 't')
+    window.do('key', 'i')  # stored colours
+    stored = difference('stored.png')
+    window.do('key', 'i')
+    deadline = time.time() + 120
+    while (still := difference('still.png')) > 0.6 * stored:
+        expect(time.time() < deadline, 'standing still sharpens: %g after %g' % (still, stored))
+        time.sleep(1)
+    began = time.time()
+    window.do('mousemove', '250', '250', 'mousedown', '1', 'mousemove', '290', '250', 'mouseup', '1')
+    moved = window.picture()
+    expect(moved != (folder / 'still.png').read_bytes(), 'a moved view shows something else')
+    expect(time.time() - began < 20, 'the window does not wait for the iteration')
+    deadline = time.time() + 120
+    while window.picture() == moved:
+        expect(time.time() < deadline, 'the new view is sharpened, too')
+        time.sleep(1)
+    expect(window.close() == 0, 'Escape ends it')
+
+
 def main(viewer, program, scene, folder):
     folder = pathlib.Path(folder)
     shutil.rmtree(folder, ignore_errors=True)
@@ -135,8 +169,10 @@ def main(viewer, program, scene, folder):
         expect(run(program, 'compare', corner, rendered, '--fail-above', 0.3, ok=False).returncode == 1,
                'another camera shows something else')
 
-        with Window(screen, viewer, *at_front) as window:
+        with Window(screen, viewer, *at_front, '--no-iteration') as window:
             use(window)
+        with Window(screen, viewer, *at_front) as window:
+            stand_still(window, folder, program)
 
         for words, code, named in [((folder / 'none.vtm',), 4, 'none.vtm'), ((box, '--camera', 'top'), 2, 'front'),
                                    ((box, '--quantity', 10), 2, '1 to '), ((rendered,), 3, 'rendered.png')]:

@@ -59,7 +59,7 @@ void WalkStyle::OnKeyPress() {
     if (key.size() == 1 && direction_of(key[0]) != glm::dvec3(0.0)) {
         if (walking_.empty()) {
             last_step_ = std::chrono::steady_clock::now();
-            Interactor->CreateRepeatingTimer(frame_milliseconds);
+            walking_timer_ = Interactor->CreateRepeatingTimer(frame_milliseconds);
         }
         walking_.insert(key[0]);
     } else if (key.size() == 1 && key[0] >= '0' && key[0] <= '9') {
@@ -68,6 +68,10 @@ void WalkStyle::OnKeyPress() {
         view_->expose(view_->stops() + (key == "bracketright" ? stops_a_key : -stops_a_key));
     } else if (key == "x") {
         view_->toggle_edges();
+    } else if (key == "t") {
+        view_->toggle_text();
+    } else if (key == "i") {
+        view_->toggle_iteration();
     } else if (key == "h") {
         view_->toggle_help();
     } else if (key == "c") {
@@ -86,11 +90,11 @@ void WalkStyle::OnKeyPress() {
 void WalkStyle::OnKeyRelease() {
     const std::string key = Interactor->GetKeySym() ? Interactor->GetKeySym() : "";
     if (key.size() != 1 || walking_.erase(key[0]) == 0 || !walking_.empty()) return;
-    Interactor->DestroyTimer();
+    Interactor->DestroyTimer(walking_timer_);
 }
 
 void WalkStyle::OnTimer() {
-    if (walking_.empty()) return;
+    if (walking_.empty()) return view_->look_after_still_picture();
     const auto now = std::chrono::steady_clock::now();
     const double seconds = std::chrono::duration<double>(now - last_step_).count();
     last_step_ = now;

@@ -41,6 +41,7 @@ private:
 
     SolutionView* view_ = nullptr;
     std::filesystem::path picture_stem_;
+    int walking_timer_ = 0;
     std::set<char> walking_;  ///< keys that are held
     std::chrono::steady_clock::time_point last_step_;
     int pictures_ = 0;

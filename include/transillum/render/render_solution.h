@@ -63,6 +63,10 @@ public:
     SolutionRenderer(SolutionRenderer&&) noexcept;
     SolutionRenderer& operator=(SolutionRenderer&&) noexcept;
 
+    /// Of the next pictures: their size [pixels], and the seed of the positions in a pixel.
+    /// \throws UsageError for a size below 1
+    void set_picture(int width, int height, std::uint64_t seed);
+
     /// Pixels are means over their squares. The image does not depend on the number of threads, but
     /// with sub-patches on those before.
     /// \throws UsageError for a size or a camera it cannot use.
