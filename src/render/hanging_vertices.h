@@ -1,37 +1,42 @@
-/// Where leaves of other sizes have vertices within the edges of a leaf.
+/// Where leaves of other sizes, or of other surfaces, have vertices within the edges of a leaf.
 #pragma once
 
 #include "render/vertex_grid.h"
 
 #include <cstdint>
 #include <unordered_map>
-#include <utility>
 #include <vector>
 
 namespace transillum {
 
 class HangingVertices {
 public:
+    /// Keeps a reference.
     explicit HangingVertices(const VertexGrid& grid);
 
-    /// Vertices within an edge of a leaf, in order from one end to the other.
-    [[nodiscard]] std::vector<std::uint32_t> between(std::uint32_t from, std::uint32_t to) const;
+    static constexpr std::uint32_t none = 0xffffffffu;
+    struct Place {
+        glm::dvec3 position;
+        float share;           ///< of the way from one end to the other
+        std::uint32_t vertex;  ///< of the same smooth surface as the ends, or none
+    };
+    /// Within an edge of a leaf, in order from one end to the other. Vertices are midpoints of
+    /// edges, exactly: they are found by their place.
+    [[nodiscard]] std::vector<Place> between(std::uint32_t from, std::uint32_t to) const;
 
 private:
-    /// By its ends, the lower one first.
-    using Line = std::pair<std::uint32_t, std::uint32_t>;
-    struct Place {
-        Line line;
-        float share;  ///< of the way from its lower end
-    };
     struct Hash {
-        std::size_t operator()(const Line& line) const;
+        std::size_t operator()(const glm::dvec3& p) const;
     };
-    /// Negative where the vertex is not on the line.
-    [[nodiscard]] float share_on(const Line& line, std::uint32_t vertex) const;
+    struct Edge {
+        glm::dvec3 from, to;
+        float from_share, to_share;
+    };
+    void add_between(const Edge& edge, std::uint32_t surface, std::vector<Place>& places) const;
 
-    std::unordered_map<std::uint32_t, Place> places_;
-    std::unordered_map<Line, std::vector<std::pair<float, std::uint32_t>>, Hash> lines_;
+    const VertexGrid& grid_;
+    std::vector<std::uint32_t> surface_;  ///< of each vertex, one of its vertices
+    std::unordered_multimap<glm::dvec3, std::uint32_t, Hash> vertices_;
 };
 
 }  // namespace transillum

@@ -46,8 +46,10 @@ private:
         for (std::size_t c = 0; c < 3; ++c) {
             const std::uint32_t from = corners[c], to = corners[(c + 1) % 3];
             around.push_back(vertex(patch, from));
-            for (const std::uint32_t v : hanging_.between(from, to))
-                around.push_back(vertex(patch, v));
+            for (const HangingVertices::Place& place : hanging_.between(from, to))
+                around.push_back(place.vertex != HangingVertices::none
+                                     ? vertex(patch, place.vertex)
+                                     : add_between(patch, from, to, place));
         }
         if (around.size() == 3) return add_triangle(patch, around[0], around[1], around[2]);
         // Each edge of the polygon with the middle: none of these is without area.
@@ -63,6 +65,15 @@ private:
         if (numbers_[i] == none)
             numbers_[i] = add_vertex(grid_.positions[number], values_[i], patch);
         return numbers_[i];
+    }
+
+    /// Where another surface has a vertex, which this one does not take part in.
+    std::uint32_t add_between(std::uint32_t patch, std::uint32_t from, std::uint32_t to,
+                              const HangingVertices::Place& place) {
+        if (!interpolate_) return add_vertex(place.position, values_[patch], patch);
+        const Spectrum a = mesh_.radiance[vertex(patch, from)];
+        const Spectrum b = mesh_.radiance[vertex(patch, to)];
+        return add_vertex(place.position, a + place.share * (b - a), patch);
     }
 
     std::uint32_t add_middle(std::uint32_t patch) {

@@ -18,8 +18,8 @@ struct RadianceMeshOptions {
 };
 
 /// Of the sides of root triangles that shine, front and back each by themselves: what no light
-/// reaches is left out. Within a smooth surface, neighbours of other size meet in common vertices.
-/// Does not depend on the number of threads.
+/// reaches is left out. Neighbours of other size meet in vertices at the same place, within a
+/// smooth surface in common ones. Does not depend on the number of threads.
 [[nodiscard]] RadianceMesh make_radiance_mesh(const SpectralSolution& spectral,
                                               const RadianceMeshOptions& options,
                                               const Workers& workers);

@@ -98,6 +98,49 @@ TEST(RadianceMesh, HasNoTJunctions) {
     }
 }
 
+/// Two squares at a right angle, each with leaves of its own size: no vertex lies within an edge.
+TEST(RadianceMesh, HasNoTJunctionsAtCreases) {
+    SurfaceBuilder builder;
+    const auto grey = builder.material(Spectrum(albedo));
+    builder.quad({glm::dvec3(0, 0, 0), {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, grey, 0);
+    builder.quad({glm::dvec3(0, 0, 0), {0, 0, 1}, {1, 0, 1}, {1, 0, 0}}, grey, 1);
+    SpectralSolution spectral;
+    Solution& s = spectral.rgb;
+    s = dark_solution(builder.build(), 0);
+    s.surface.objects = {"corner"};
+    s.patches = subdivide_to_levels({1, 1, 3, 2});
+    for (auto* values : {&s.direct_irradiance, &s.indirect_irradiance, &s.standard_error})
+        values->assign(s.patches.patch_count(), Spectrum(0.0f));
+    s.coverage.assign(s.patches.patch_count(), 1.0f);
+    for (std::uint32_t leaf = 0; leaf < s.patches.leaf_count; ++leaf)
+        s.indirect_irradiance[leaf] =
+            Spectrum(static_cast<float>(1.0 + leaf_centre(s.surface, s.patches, leaf).x));
+    for (const bool interpolate : {true, false}) {
+        RadianceMeshOptions options;
+        options.interpolate = interpolate;
+        const RadianceMesh mesh = make_radiance_mesh(spectral, options, Workers(1));
+        double area = 0.0;
+        for (const auto& t : mesh.triangles) {
+            area += glm::length(area_vector(mesh, t));
+            for (std::size_t c = 0; c < 3; ++c) {
+                const glm::dvec3 a = mesh.positions[t.vertices[c]];
+                const glm::dvec3 b = mesh.positions[t.vertices[(c + 1) % 3]];
+                for (const glm::dvec3& p : mesh.positions) {
+                    if (p == a || p == b) continue;
+                    const double off = glm::length(glm::cross(b - a, p - a));
+                    const double along = glm::dot(b - a, p - a) / glm::dot(b - a, b - a);
+                    EXPECT_FALSE(off < 1e-12 && along > 0.0 && along < 1.0);
+                }
+            }
+        }
+        EXPECT_NEAR(area, 2.0, 1e-12);
+        if (!interpolate) continue;
+        for (std::size_t v = 0; v < mesh.positions.size(); ++v)
+            EXPECT_NEAR(mesh.radiance[v].x,
+                        albedo * (1.0 + mesh.positions[v].x) / std::numbers::pi, 1e-5);
+    }
+}
+
 TEST(RadianceMesh, CoversTheLitSideFacingOutOfIt) {
     SpectralSolution spectral = random_square(1);
     const glm::dvec3 front = normal_of(spectral.rgb.surface, 0);
