@@ -79,6 +79,8 @@ void write_raster(const Raster& raster, const fs::path& path, const fs::path& na
     spec.channelnames = raster.channels;
     // Else the time of writing is stored, and equal images would be different files.
     spec.attribute("DateTime", "1970:01:01 00:00:00");
+    // A fifth larger than the default's, and half a second sooner at 2048 x 2048.
+    if (memory) spec.attribute("png:compressionLevel", 3);
     const bool written = file->open(path.string(), spec) &&
                          file->write_image(OIIO::TypeDesc::FLOAT, raster.values.data());
     if (!file->close() || !written)
