@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 
 namespace transillum::cli {
@@ -30,6 +31,11 @@ int run(const RenderArguments& a, const Common& common) {
     const Camera camera = make_camera(a.camera, solution.rgb.cameras, solution.rgb.surface);
     const Image image = render_bands(solution, camera, render, Workers(a.shading.threads), console);
     if (console.stop_requested()) return ExitCode::interrupted;
+    if (std::ranges::all_of(image.pixels, [](const Spectrum& p) { return p == Spectrum(0.0f); }))
+        console.warn(fmt::format(
+            "the picture is black: from eye {:g},{:g},{:g} nothing that shines is seen; scene "
+            "coordinates are those of the file ('info' lists cameras)",
+            camera.eye.x, camera.eye.y, camera.eye.z));
     write_images(image, a.image);
     return ExitCode::done;
 }

@@ -124,7 +124,7 @@ RadianceMesh make_radiance_mesh(const SpectralSolution& spectral,
                          workers),
         options.interpolate);
     RadianceMesh mesh = builder.build();
-    const float factor = exposure_factor(mesh.radiance, builder.emitter_mask(), options.tone);
+    const float factor = surface_exposure_factor(mesh.radiance, builder.emitter_mask(), options.tone);
     mesh.exposure = std::log2(double{factor});
     for (const Spectrum& radiance : mesh.radiance)
         mesh.display.push_back(compress_highlights(factor * radiance));

@@ -33,6 +33,22 @@ float exposure_factor(std::span<const Spectrum> radiance, std::span<const float>
     return median > 0.0f ? stops * middle_grey / median : stops;
 }
 
+float surface_exposure_factor(std::span<const Spectrum> radiance,
+                              std::span<const float> emitter_mask, const ToneMapping& tone) {
+    constexpr double dark = 0.01;  // of the mean
+    std::vector<float> mask(emitter_mask.begin(), emitter_mask.end());
+    mask.resize(radiance.size(), 0.0f);
+    double sum = 0.0, count = 0.0;
+    for (std::size_t i = 0; i < radiance.size(); ++i)
+        if (mask[i] == 0.0f) {
+            sum += luminance(radiance[i]);
+            count += 1.0;
+        }
+    for (std::size_t i = 0; i < radiance.size(); ++i)
+        if (luminance(radiance[i]) * count < dark * sum) mask[i] = 1.0f;
+    return exposure_factor(radiance, mask, tone);
+}
+
 double automatic_exposure(const Image& image) {
     return std::log2(double{exposure_factor(image, {})});
 }

@@ -17,6 +17,13 @@ namespace transillum {
     return exposure_factor(image.pixels, image.emitter_mask, tone);
 }
 
+/// The same for radiance all over a surface, much of which no picture may show: what is darker than
+/// a hundredth of the mean has no say either, as the insides of things that a trace of light gets
+/// into.
+[[nodiscard]] float surface_exposure_factor(std::span<const Spectrum> radiance,
+                                            std::span<const float> emitter_mask,
+                                            const ToneMapping& tone);
+
 /// Exposed linear colour to linear display colour in [0, 1]: proportional up to a shoulder.
 /// Channels keep their ratios, so hues stay.
 [[nodiscard]] Spectrum compress_highlights(const Spectrum& colour);

@@ -58,6 +58,15 @@ TEST_F(Messages, AreLinesWhereThereIsNoTerminal) {
     EXPECT_THAT(bake("--progress bar --again").err, HasSubstr("=]  128 of 128  100 %"));
 }
 
+TEST_F(Messages, SayThatACameraSeesNothing) {
+    ASSERT_EQ(bake("").exit_code, 0);
+    const std::string look = "render room.vtm -o room.png --size 8x8 --eye 0,0,100 --look-at ";
+    const Outcome away = run(look + "0,0,200");
+    EXPECT_EQ(away.exit_code, 0);
+    EXPECT_THAT(away.err, HasSubstr("the picture is black: from eye 0,0,100"));
+    EXPECT_FALSE(read("room.png").empty());
+}
+
 TEST_F(Messages, AreKeptInTheLogWhateverIsShown) {
     ASSERT_EQ(bake("--quiet --log-file bake.log").exit_code, 0);
     const std::string log = read("bake.log");

@@ -374,11 +374,12 @@ void SolutionView::save_picture(const std::filesystem::path& path) {
 }
 
 void SolutionView::draw() {
-    // Near enough to stand before a wall.
+    // Near enough to stand before a wall, and no nearer: else depth is too coarse to tell the inside
+    // of a thing from its outside along their common edges.
     vtkCamera& view = *renderer_->GetActiveCamera();
     const double* const eye = view.GetPosition();
     const double distance = glm::length(glm::dvec3(eye[0], eye[1], eye[2]));
-    view.SetClippingRange(1e-4 * size_, distance + size_);
+    view.SetClippingRange(std::max(5e-4 * size_, distance - 0.55 * size_), distance + size_);
     if (const View now = this->view(); now != last_view_) {
         last_view_ = now;
         stop_still_picture();

@@ -155,8 +155,7 @@ Lightmap make_lightmap(const SpectralSolution& spectral, const LightmapOptions& 
     LightmapMesh mesh(field, size);
     for (const Chart& chart : charts) mesh.add(chart);
     result.mesh = mesh.take();
-    ToneMapping tone = options.tone;
-    const float factor = exposure_factor(result.image, tone);
+    const float factor = surface_exposure_factor(result.image.pixels, {}, options.tone);
     result.mesh.exposure = std::log2(double{factor});
     for (const Spectrum& radiance : result.mesh.radiance)
         result.mesh.display.push_back(compress_highlights(factor * radiance));

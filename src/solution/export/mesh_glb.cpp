@@ -48,7 +48,8 @@ public:
             const std::uint32_t object = begin->object;
             end = std::find_if(begin, triangles.end(),
                                [&](const auto& t) { return t.object != object; });
-            add("meshes", {{"primitives", Json::array({primitive({begin, end})})}});
+            add("meshes", {{"name", mesh_.objects[object]},
+                           {"primitives", Json::array({primitive({begin, end})})}});
             children.push_back(add(
                 "nodes", {{"name", mesh_.objects[object]}, {"mesh", root_["meshes"].size() - 1}}));
         }

@@ -7,6 +7,20 @@
 namespace transillum {
 namespace {
 
+/// As many insides of closed things as walls, into which a trace of light gets.
+TEST(SurfaceExposure, GoesByWhatIsLit) {
+    const std::vector<Spectrum> lit(100, Spectrum(0.5f));
+    std::vector<Spectrum> all = lit;
+    all.insert(all.end(), 150, Spectrum(1e-3f));
+    all.emplace_back(1000.0f);
+    std::vector<float> emits(all.size(), 0.0f);
+    emits.back() = 1.0f;
+    EXPECT_EQ(surface_exposure_factor(all, emits, {}), surface_exposure_factor(lit, {}, {}));
+    EXPECT_NE(exposure_factor(all, emits, {}), surface_exposure_factor(lit, {}, {}));
+    EXPECT_EQ(surface_exposure_factor(lit, {}, {}), exposure_factor(lit, {}, {}));
+    EXPECT_EQ(surface_exposure_factor(all, emits, {1.0, false}), 2.0f);
+}
+
 TEST(ToneMapping, MidTonesStayLinear) {
     const Spectrum c(0.5f, 0.2f, 0.0f);
     EXPECT_EQ(compress_highlights(c), c);
