@@ -72,16 +72,19 @@ private:
     double texel_;
 };
 
-/// Texels whose middle a chart covers.
+/// Texels whose middle a chart covers. As long as it is a plane it can't cover one twice.
 class Covered {
 public:
-    /// False, and nothing is covered, where one of them was.
-    bool add(const Chart::Triangle& t) {
-        const std::vector<std::uint64_t> texels = texels_of(t);
-        if (std::ranges::any_of(texels, [&](std::uint64_t k) { return covered_.contains(k); }))
-            return false;
-        covered_.insert(texels.begin(), texels.end());
-        return true;
+    /// Whether a triangle of the plane, or another, is welcome after those of the chart.
+    bool has_room_for(const Chart::Triangle& t, bool is_of_plane, const Chart& chart) {
+        if (is_plane_ && is_of_plane) return true;
+        is_plane_ = false;
+        for (; entered_ < chart.triangles.size(); ++entered_) {
+            const std::vector<std::uint64_t> texels = texels_of(chart.triangles[entered_]);
+            covered_.insert(texels.begin(), texels.end());
+        }
+        return std::ranges::none_of(texels_of(t),
+                                    [&](std::uint64_t k) { return covered_.contains(k); });
     }
 
 private:
@@ -105,6 +108,8 @@ private:
     }
 
     std::unordered_set<std::uint64_t> covered_;
+    std::size_t entered_ = 0;  ///< triangles of the chart
+    bool is_plane_ = true;
 };
 
 struct Bounds {
@@ -191,7 +196,10 @@ private:
             reached.pop_front();
             if (is_taken_[side]) continue;
             const Chart::Triangle triangle = project(mesh_, sides_[side]);
-            if (!covered.add(triangle)) continue;
+            constexpr double rounding = 1e-12;
+            const bool is_of_plane =
+                glm::dot(normal_of(mesh_, sides_[side]), project.normal) > 1.0 - rounding;
+            if (!covered.has_room_for(triangle, is_of_plane, chart)) continue;
             is_taken_[side] = 1;
             chart.triangles.push_back(triangle);
             for (std::size_t corner = 0; corner < 3; ++corner)
