@@ -16,8 +16,8 @@ namespace {
 
 class MeshBuilder {
 public:
-    MeshBuilder(const Solution& solution, const VertexGrid& grid,
-                std::vector<Spectrum> values, bool interpolate)
+    MeshBuilder(const Solution& solution, const VertexGrid& grid, std::vector<Spectrum> values,
+                bool interpolate)
         : solution_(solution),
           grid_(grid),
           hanging_(grid),
@@ -118,13 +118,13 @@ RadianceMesh make_radiance_mesh(const SpectralSolution& spectral,
                                 const RadianceMeshOptions& options, const Workers& workers) {
     const Solution& solution = spectral.rgb;
     const VertexGrid grid = build_vertex_grid(solution.surface, solution.patches);
-    MeshBuilder builder(
-        solution, grid,
-        surface_radiance(spectral, options.interpolate ? &grid : nullptr, options.components,
-                         workers),
-        options.interpolate);
+    MeshBuilder builder(solution, grid,
+                        surface_radiance(spectral, options.interpolate ? &grid : nullptr,
+                                         options.components, workers),
+                        options.interpolate);
     RadianceMesh mesh = builder.build();
-    const float factor = surface_exposure_factor(mesh.radiance, builder.emitter_mask(), options.tone);
+    const float factor =
+        surface_exposure_factor(mesh.radiance, builder.emitter_mask(), options.tone);
     mesh.exposure = std::log2(double{factor});
     for (const Spectrum& radiance : mesh.radiance)
         mesh.display.push_back(compress_highlights(factor * radiance));

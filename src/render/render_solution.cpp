@@ -305,8 +305,8 @@ SolutionRenderer& SolutionRenderer::operator=(SolutionRenderer&&) noexcept = def
 
 void SolutionRenderer::set_picture(int width, int height, std::uint64_t seed) {
     if (std::min(width, height) < 1)
-        throw UsageError(fmt::format("a picture of {} x {} pixels; accepted: at least 1 x 1", width,
-                                     height));
+        throw UsageError(
+            fmt::format("a picture of {} x {} pixels; accepted: at least 1 x 1", width, height));
     options_.width = width;
     options_.height = height;
     options_.seed = seed;

@@ -55,9 +55,8 @@ void add_options(CLI::App& program, Arguments& a) {
     program.add_option("--height", a.height)->check(CLI::Range(64, 8192))->capture_default_str();
     program.add_option("--screenshot", a.screenshot,
                        "write what the window shows to this .png, without title and help, and end");
-    program.add_flag(
-        "--no-iteration{false}", a.iterate,
-        "show what is stored alone, also where the view stands still (key i)");
+    program.add_flag("--no-iteration{false}", a.iterate,
+                     "show what is stored alone, also where the view stands still (key i)");
     program.add_option("--threads", a.threads, "0: as many as the machine has")
         ->capture_default_str();
     program.footer(std::string("Keys:\n") + key_help +

@@ -294,8 +294,12 @@ SolutionView::View SolutionView::view() const {
     vtkCamera& camera = *renderer_->GetActiveCamera();
     const auto point = [](const double* p) { return glm::dvec3(p[0], p[1], p[2]); };
     const int* const size = window_->GetSize();
-    return {point(camera.GetPosition()), point(camera.GetFocalPoint()), point(camera.GetViewUp()),
-            camera.GetViewAngle(), size[0], size[1]};
+    return {point(camera.GetPosition()),
+            point(camera.GetFocalPoint()),
+            point(camera.GetViewUp()),
+            camera.GetViewAngle(),
+            size[0],
+            size[1]};
 }
 
 void SolutionView::iterate_when_still(bool on) {
@@ -321,8 +325,8 @@ void SolutionView::look_after_still_picture() {
         if (std::chrono::steady_clock::now() - moved_at_ < stillness) return;
         // One thread is left to the window.
         if (!still_picture_)
-            still_picture_ = std::make_unique<StillPicture>(solution_.rgb,
-                                                            std::max(1, workers_.count() - 1));
+            still_picture_ =
+                std::make_unique<StillPicture>(solution_.rgb, std::max(1, workers_.count() - 1));
         still_picture_->begin(camera(), window_->GetSize()[0], window_->GetSize()[1]);
         is_begun_ = true;
         annotate();
@@ -374,8 +378,8 @@ void SolutionView::save_picture(const std::filesystem::path& path) {
 }
 
 void SolutionView::draw() {
-    // Near enough to stand before a wall, and no nearer: else depth is too coarse to tell the inside
-    // of a thing from its outside along their common edges.
+    // Near enough to stand before a wall, and no nearer: else depth is too coarse to tell the
+    // inside of a thing from its outside along their common edges.
     vtkCamera& view = *renderer_->GetActiveCamera();
     const double* const eye = view.GetPosition();
     const double distance = glm::length(glm::dvec3(eye[0], eye[1], eye[2]));

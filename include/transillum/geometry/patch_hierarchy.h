@@ -146,7 +146,7 @@ struct SubdivisionOptions {
     /// than triangles, or twice as many as these, but none of less than a 240000th of the surface
     /// is divided.
     std::uint32_t leaf_target = 0;
-    int max_level = 8;              ///< at most max_subdivision_level
+    int max_level = 8;  ///< at most max_subdivision_level
 };
 
 /// Subdivides every root until its leaves' longest edge is at most the patch size, or by count.

@@ -11,8 +11,8 @@ inline constexpr int largest_lightmap = 16384;
 
 struct LightmapOptions {
     Components components;  ///< monte_carlo has no say
-    int size = 0;           ///< edge [texels]; 0: a power of two for about two texels a patch's edge
-    ToneMapping tone;       ///< of RadianceMesh::display and the picture for viewers
+    int size = 0;      ///< edge [texels]; 0: a power of two for about two texels a patch's edge
+    ToneMapping tone;  ///< of RadianceMesh::display and the picture for viewers
 };
 
 struct Lightmap {

@@ -1,4 +1,5 @@
-/// A solution as other programs take it: triangles with a colour at each vertex, or with a lightmap.
+/// A solution as other programs take it: triangles with a colour at each vertex, or with a
+/// lightmap.
 #pragma once
 
 #include <transillum/base/spectrum.h>

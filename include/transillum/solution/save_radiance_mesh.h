@@ -20,8 +20,8 @@ namespace transillum {
 void require_mesh_extension(const std::filesystem::path& path);
 
 /// Replaces what was there as a whole, or leaves it as it was.
-/// \throws UsageError for another extension or with a lightmap and not .glb, InputError where the mesh is empty or more than the
-/// format holds, IoError
+/// \throws UsageError for another extension or with a lightmap and not .glb, InputError where the
+/// mesh is empty or more than the format holds, IoError
 void save_radiance_mesh(const RadianceMesh& mesh, const std::filesystem::path& path);
 
 }  // namespace transillum

@@ -58,8 +58,7 @@ public:
     [[nodiscard]] Chart::Triangle operator()(const SurfaceMesh& mesh, const RootSide& side) const {
         Chart::Triangle triangle{side, {}};
         for (std::size_t i = 0; i < 3; ++i) {
-            const glm::dvec3 from =
-                mesh.positions[mesh.triangles[side.root].vertices[i]] - origin_;
+            const glm::dvec3 from = mesh.positions[mesh.triangles[side.root].vertices[i]] - origin_;
             triangle.corners[i] = glm::dvec2(glm::dot(from, x_), glm::dot(from, y_)) / texel_;
         }
         return triangle;
@@ -100,9 +99,9 @@ private:
                 const glm::dvec2 p(static_cast<double>(x) + 0.5, static_cast<double>(y) + 0.5);
                 if (sign * cross(b - a, p - a) > edge && sign * cross(c - b, p - b) > edge &&
                     sign * cross(a - c, p - c) > edge)
-                    texels.push_back((static_cast<std::uint64_t>(static_cast<std::uint32_t>(x))
-                                      << 32) |
-                                     static_cast<std::uint32_t>(y));
+                    texels.push_back(
+                        (static_cast<std::uint64_t>(static_cast<std::uint32_t>(x)) << 32) |
+                        static_cast<std::uint32_t>(y));
             }
         return texels;
     }
@@ -175,9 +174,8 @@ public:
     std::vector<Chart> make() {
         std::vector<std::uint32_t> order(sides_.size());
         std::iota(order.begin(), order.end(), 0u);
-        std::ranges::stable_sort(order, std::greater(), [&](std::uint32_t i) {
-            return area_of(mesh_, sides_[i].root);
-        });
+        std::ranges::stable_sort(order, std::greater(),
+                                 [&](std::uint32_t i) { return area_of(mesh_, sides_[i].root); });
         std::vector<Chart> charts;
         for (const std::uint32_t first : order)
             if (!is_taken_[first]) charts.push_back(grow(first));

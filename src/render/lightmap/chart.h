@@ -1,5 +1,5 @@
-/// A part of a lightmap: connected sides of root triangles of one object that face one way, laid out
-/// without overlap by projection along the normal of the first.
+/// A part of a lightmap: connected sides of root triangles of one object that face one way, laid
+/// out without overlap by projection along the normal of the first.
 #pragma once
 
 #include <transillum/solution/solution.h>

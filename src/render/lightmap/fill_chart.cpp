@@ -69,8 +69,7 @@ public:
                     const glm::dvec2 point = nearest(t.corners, middle);
                     const glm::dvec2 away = middle - place(t.corners, point);
                     // Within it the way back and forth is rounded.
-                    const double d2 =
-                        glm::dot(away, away) < 1e-18 ? 0.0 : glm::dot(away, away);
+                    const double d2 = glm::dot(away, away) < 1e-18 ? 0.0 : glm::dot(away, away);
                     if (d2 >= distance2[i]) continue;
                     distance2[i] = d2;
                     triangles[i] = &t;
@@ -145,8 +144,7 @@ private:
         for (int k = 0; k < 4; ++k) {
             const int right = k % 2, down = k / 2;
             s.texels[k] = static_cast<std::uint32_t>(index(x + right, y + down));
-            s.weights[k] =
-                (right ? share.x : 1.0f - share.x) * (down ? share.y : 1.0f - share.y);
+            s.weights[k] = (right ? share.x : 1.0f - share.x) * (down ? share.y : 1.0f - share.y);
         }
         return s;
     }

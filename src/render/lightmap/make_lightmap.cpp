@@ -53,8 +53,7 @@ int size_for(std::size_t patches) {
 void check(const LightmapOptions& o) {
     if (o.size < 0 || o.size > largest_lightmap)
         throw UsageError("lightmap of " + std::to_string(o.size) +
-                         " texels; accepted: 0 (automatic) to " +
-                         std::to_string(largest_lightmap));
+                         " texels; accepted: 0 (automatic) to " + std::to_string(largest_lightmap));
 }
 
 /// The finest that fit, nearly. Where they don't though texels are as long as the scene, it is the
@@ -90,8 +89,8 @@ public:
             RadianceMesh::Triangle triangle;
             triangle.object = root.object;
             triangle.material = root.material;
-            triangle.patch = patches.roots[t.side.root].first_leaf +
-                             (t.side.back ? patches.leaf_count : 0u);
+            triangle.patch =
+                patches.roots[t.side.root].first_leaf + (t.side.back ? patches.leaf_count : 0u);
             for (std::size_t i = 0; i < 3; ++i) triangle.vertices[i] = vertex(chart, t, i);
             if (t.side.back) std::swap(triangle.vertices[1], triangle.vertices[2]);
             mesh_.triangles.push_back(triangle);
@@ -109,9 +108,8 @@ private:
         const glm::vec2 uv = surface_.uvs.empty()
                                  ? glm::vec2(0.0f)
                                  : surface_.uvs[3 * std::size_t{t.side.root} + corner];
-        const auto [found, is_new] =
-            vertices_.try_emplace({number, uv.x, uv.y},
-                                  static_cast<std::uint32_t>(mesh_.positions.size()));
+        const auto [found, is_new] = vertices_.try_emplace(
+            {number, uv.x, uv.y}, static_cast<std::uint32_t>(mesh_.positions.size()));
         if (!is_new) return found->second;
         mesh_.positions.push_back(surface_.positions[number]);
         if (!surface_.uvs.empty()) mesh_.uvs.push_back(uv);
@@ -141,7 +139,8 @@ Lightmap make_lightmap(const SpectralSolution& spectral, const LightmapOptions& 
     Lightmap result;
     const std::vector<Chart> charts = lay_out(s.surface, shining, size, result.texel);
     result.charts = static_cast<int>(charts.size());
-    result.image = {size, size, std::vector<Spectrum>(std::size_t(size) * size, Spectrum(0.0f)), {}};
+    result.image = {
+        size, size, std::vector<Spectrum>(std::size_t(size) * size, Spectrum(0.0f)), {}};
 
     const VertexGrid grid = build_vertex_grid(s.surface, s.patches);
     const std::vector<Spectrum> values =

@@ -125,8 +125,16 @@ TEST(SampleLuminaires, BothSidesOfASheetAreTwo) {
 }
 
 TEST(SampleLuminaires, TakesFewerSamplesEachWhereThereAreMany) {
-    for (const auto& [lamps, each] : std::vector<std::pair<int, int>>{
-             {1, 64}, {2, 64}, {3, 32}, {8, 16}, {9, 8}, {16, 8}, {24, 8}, {32, 8}, {33, 4}, {60, 4}}) {
+    for (const auto& [lamps, each] : std::vector<std::pair<int, int>>{{1, 64},
+                                                                      {2, 64},
+                                                                      {3, 32},
+                                                                      {8, 16},
+                                                                      {9, 8},
+                                                                      {16, 8},
+                                                                      {24, 8},
+                                                                      {32, 8},
+                                                                      {33, 4},
+                                                                      {60, 4}}) {
         SceneBuilder builder = room();
         const std::uint32_t m = builder.material(Spectrum(0.0f), bright);
         for (int i = 0; i < lamps; ++i)

@@ -148,8 +148,8 @@ TEST(Lightmap, ChartsNeitherOverlapNorTouch) {
     for (std::size_t i = 0; i < triangles.size(); ++i)
         for (int a = 0; a <= steps; ++a)
             for (int b = 0; a + b <= steps; ++b) {
-                const glm::vec2 uv = between(l.mesh.lightmap_uvs, triangles[i],
-                                             float(a) / steps, float(b) / steps);
+                const glm::vec2 uv =
+                    between(l.mesh.lightmap_uvs, triangles[i], float(a) / steps, float(b) / steps);
                 ASSERT_TRUE(uv.x >= 0.0f && uv.x <= 1.0f && uv.y >= 0.0f && uv.y <= 1.0f);
                 const glm::dvec2 low = glm::floor(glm::dvec2(uv) * 128.0 - 0.5);
                 for (const auto& [dx, dy] : {std::pair(0, 0), {1, 0}, {0, 1}, {1, 1}})

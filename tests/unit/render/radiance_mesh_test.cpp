@@ -136,8 +136,8 @@ TEST(RadianceMesh, HasNoTJunctionsAtCreases) {
         EXPECT_NEAR(area, 2.0, 1e-12);
         if (!interpolate) continue;
         for (std::size_t v = 0; v < mesh.positions.size(); ++v)
-            EXPECT_NEAR(mesh.radiance[v].x,
-                        albedo * (1.0 + mesh.positions[v].x) / std::numbers::pi, 1e-5);
+            EXPECT_NEAR(mesh.radiance[v].x, albedo * (1.0 + mesh.positions[v].x) / std::numbers::pi,
+                        1e-5);
     }
 }
 
