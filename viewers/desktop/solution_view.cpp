@@ -320,6 +320,7 @@ void SolutionView::stop_still_picture() {
 }
 
 void SolutionView::look_after_still_picture() {
+    if (view() != last_view_) return draw();  // the window has another size
     if (!iterates_ || shown_ != 0 || actor_->GetProperty()->GetEdgeVisibility()) return;
     if (!is_begun_) {
         if (std::chrono::steady_clock::now() - moved_at_ < stillness) return;

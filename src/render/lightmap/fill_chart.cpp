@@ -77,8 +77,12 @@ public:
                 }
         }
         values_.assign(count, Spectrum(0.0f));
-        for (std::size_t i = 0; i < count; ++i)
-            if (triangles[i]) values_[i] = field_.at(triangles[i]->side, points[i]);
+        emits_.assign(count, 0.0f);
+        for (std::size_t i = 0; i < count; ++i) {
+            if (!triangles[i]) continue;
+            values_[i] = field_.at(triangles[i]->side, points[i]);
+            emits_[i] = field_.emits(triangles[i]->side) ? 1.0f : 0.0f;
+        }
     }
 
     /// Kaczmarz's method: each sample along a border in turn moves the texels it is filtered from,
@@ -102,8 +106,11 @@ public:
 
     void write(Image& lightmap) const {
         for (int y = 0; y < chart_.height; ++y)
-            for (int x = 0; x < chart_.width; ++x)
+            for (int x = 0; x < chart_.width; ++x) {
                 lightmap.at(chart_.x + x, chart_.y + y) = values_[index(x, y)];
+                lightmap.emitter_mask[static_cast<std::size_t>(chart_.y + y) * lightmap.width +
+                                      chart_.x + x] = emits_[index(x, y)];
+            }
     }
 
 private:
@@ -152,6 +159,7 @@ private:
     const Chart& chart_;
     const RadianceField& field_;
     std::vector<Spectrum> values_;
+    std::vector<float> emits_;
 };
 
 }  // namespace
@@ -168,6 +176,12 @@ Spectrum RadianceField::at(const RootSide& side, const glm::dvec2& b) const {
     for (int i = 0; i < 3; ++i)
         result += within[i] * values[first + grid.leaf_vertices[leaf][static_cast<std::size_t>(i)]];
     return result;
+}
+
+bool RadianceField::emits(const RootSide& side) const {
+    const PatchHierarchy& patches = solution.patches;
+    return solution.emits(patches.roots[side.root].first_leaf +
+                          (side.back ? patches.leaf_count : 0u));
 }
 
 void fill_chart(const Chart& chart, const RadianceField& field, Image& lightmap) {

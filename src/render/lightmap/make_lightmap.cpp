@@ -139,8 +139,9 @@ Lightmap make_lightmap(const SpectralSolution& spectral, const LightmapOptions& 
     Lightmap result;
     const std::vector<Chart> charts = lay_out(s.surface, shining, size, result.texel);
     result.charts = static_cast<int>(charts.size());
-    result.image = {
-        size, size, std::vector<Spectrum>(std::size_t(size) * size, Spectrum(0.0f)), {}};
+    const std::size_t texels = std::size_t(size) * size;
+    result.image = {size, size, std::vector<Spectrum>(texels, Spectrum(0.0f)),
+                    std::vector<float>(texels, 0.0f)};
 
     const VertexGrid grid = build_vertex_grid(s.surface, s.patches);
     const std::vector<Spectrum> values =
@@ -154,10 +155,12 @@ Lightmap make_lightmap(const SpectralSolution& spectral, const LightmapOptions& 
     LightmapMesh mesh(field, size);
     for (const Chart& chart : charts) mesh.add(chart);
     result.mesh = mesh.take();
-    const float factor = surface_exposure_factor(result.image.pixels, {}, options.tone);
+    const float factor =
+        surface_exposure_factor(result.image.pixels, result.image.emitter_mask, options.tone);
     result.mesh.exposure = std::log2(double{factor});
     for (const Spectrum& radiance : result.mesh.radiance)
         result.mesh.display.push_back(compress_highlights(factor * radiance));
+    result.image.emitter_mask.clear();  // no channel of a lightmap
     result.mesh.lightmap_png = png_bytes(result.image, {result.mesh.exposure, false});
     return result;
 }

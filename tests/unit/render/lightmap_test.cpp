@@ -192,6 +192,21 @@ TEST(Lightmap, HoldsTheComponentsAskedFor) {
         EXPECT_EQ(texel, Spectrum(0.0f));
 }
 
+/// However bright: what is lit shows as it does without it.
+TEST(Lightmap, EmittersHaveNoSayInItsExposure) {
+    SpectralSolution s = lit_tube();
+    const double without = make_lightmap(s, sized(128), Workers(1)).mesh.exposure;
+    Material lamp = s.rgb.surface.materials[0];
+    lamp.emission = Spectrum(1e6f);
+    s.rgb.surface.materials.push_back(lamp);
+    const std::size_t triangles = s.rgb.surface.triangles.size();
+    for (std::size_t t = triangles - 2; t < triangles; ++t)  // the square
+        s.rgb.surface.triangles[t].material = 1;
+    const Lightmap lit = make_lightmap(s, sized(128), Workers(1));
+    EXPECT_NEAR(lit.mesh.exposure, without, 0.3);
+    EXPECT_TRUE(lit.image.emitter_mask.empty());
+}
+
 TEST(Lightmap, KeepsTheUvsOfTheScene) {
     SpectralSolution s = lit_tube();
     EXPECT_TRUE(make_lightmap(s, sized(64), Workers(1)).mesh.uvs.empty());
