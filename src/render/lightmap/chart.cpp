@@ -162,71 +162,57 @@ void settle(Chart& chart, const SurfaceMesh& mesh) {
     chart.height = texels.y + 2 * Chart::padding;
 }
 
-class ChartMaker {
-public:
-    ChartMaker(const SurfaceMesh& mesh, const std::vector<RootSide>& sides, double texel)
-        : mesh_(mesh), sides_(sides), texel_(texel), is_taken_(sides.size(), 0) {
-        for (std::uint32_t i = 0; i < sides.size(); ++i)
-            for (std::size_t corner = 0; corner < 3; ++corner)
-                sides_at_[key(edge_of(mesh, sides[i].root, corner))].push_back(i);
-    }
-
-    std::vector<Chart> make() {
-        std::vector<std::uint32_t> order(sides_.size());
-        std::iota(order.begin(), order.end(), 0u);
-        std::ranges::stable_sort(order, std::greater(),
-                                 [&](std::uint32_t i) { return area_of(mesh_, sides_[i].root); });
-        std::vector<Chart> charts;
-        for (const std::uint32_t first : order)
-            if (!is_taken_[first]) charts.push_back(grow(first));
-        return charts;
-    }
-
-private:
-    Chart grow(std::uint32_t first) {
-        const Projection project(mesh_, sides_[first], texel_);
-        Chart chart;
-        chart.object = mesh_.triangles[sides_[first].root].object;
-        Covered covered;
-        std::deque<std::uint32_t> reached{first};
-        while (!reached.empty()) {
-            const std::uint32_t side = reached.front();
-            reached.pop_front();
-            if (is_taken_[side]) continue;
-            const Chart::Triangle triangle = project(mesh_, sides_[side]);
-            constexpr double rounding = 1e-12;
-            const bool is_of_plane =
-                glm::dot(normal_of(mesh_, sides_[side]), project.normal) > 1.0 - rounding;
-            if (!covered.has_room_for(triangle, is_of_plane, chart)) continue;
-            is_taken_[side] = 1;
-            chart.triangles.push_back(triangle);
-            for (std::size_t corner = 0; corner < 3; ++corner)
-                for (const std::uint32_t next :
-                     sides_at_.at(key(edge_of(mesh_, sides_[side].root, corner))))
-                    if (belongs(chart, project, next)) reached.push_back(next);
-        }
-        settle(chart, mesh_);
-        return chart;
-    }
-
-    [[nodiscard]] bool belongs(const Chart& chart, const Projection& project,
-                               std::uint32_t side) const {
-        return !is_taken_[side] && mesh_.triangles[sides_[side].root].object == chart.object &&
-               glm::dot(normal_of(mesh_, sides_[side]), project.normal) >= least_cosine;
-    }
-
-    const SurfaceMesh& mesh_;
-    const std::vector<RootSide>& sides_;
-    const double texel_;
-    std::vector<std::uint8_t> is_taken_;
-    std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> sides_at_;  ///< edges
-};
-
 }  // namespace
 
-std::vector<Chart> make_charts(const SurfaceMesh& mesh, const std::vector<RootSide>& sides,
-                               double texel) {
-    return ChartMaker(mesh, sides, texel).make();
+ChartMaker::ChartMaker(const SurfaceMesh& mesh, const std::vector<RootSide>& sides)
+    : mesh_(mesh), sides_(sides), order_(sides.size()) {
+    for (std::uint32_t i = 0; i < sides.size(); ++i)
+        for (std::size_t corner = 0; corner < 3; ++corner)
+            sides_at_[key(edge_of(mesh, sides[i].root, corner))].push_back(i);
+    std::iota(order_.begin(), order_.end(), 0u);
+    std::ranges::stable_sort(order_, std::greater(),
+                             [&](std::uint32_t i) { return area_of(mesh_, sides_[i].root); });
+}
+
+std::vector<Chart> ChartMaker::make(double texel) const {
+    std::vector<std::uint8_t> is_taken(sides_.size(), 0);
+    std::vector<Chart> charts;
+    for (const std::uint32_t first : order_)
+        if (!is_taken[first]) charts.push_back(grow(first, texel, is_taken));
+    return charts;
+}
+
+Chart ChartMaker::grow(std::uint32_t first, double texel,
+                       std::vector<std::uint8_t>& is_taken) const {
+    constexpr double rounding = 1e-12;
+    const Projection project(mesh_, sides_[first], texel);
+    Chart chart;
+    chart.object = mesh_.triangles[sides_[first].root].object;
+    Covered covered;
+    std::deque<std::uint32_t> reached{first};
+    while (!reached.empty()) {
+        const std::uint32_t side = reached.front();
+        reached.pop_front();
+        if (is_taken[side]) continue;
+        const Chart::Triangle triangle = project(mesh_, sides_[side]);
+        const bool is_of_plane =
+            glm::dot(normal_of(mesh_, sides_[side]), project.normal) > 1.0 - rounding;
+        if (!covered.has_room_for(triangle, is_of_plane, chart)) continue;
+        is_taken[side] = 1;
+        chart.triangles.push_back(triangle);
+        for (std::size_t corner = 0; corner < 3; ++corner)
+            for (const std::uint32_t next :
+                 sides_at_.at(key(edge_of(mesh_, sides_[side].root, corner))))
+                if (!is_taken[next] && belongs(next, chart.object, project.normal))
+                    reached.push_back(next);
+    }
+    settle(chart, mesh_);
+    return chart;
+}
+
+bool ChartMaker::belongs(std::uint32_t side, std::uint32_t object, const glm::dvec3& normal) const {
+    return mesh_.triangles[sides_[side].root].object == object &&
+           glm::dot(normal_of(mesh_, sides_[side]), normal) >= least_cosine;
 }
 
 bool pack_charts(std::vector<Chart>& charts, int size) {

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <unordered_map>
 #include <vector>
 
 namespace transillum {
@@ -36,9 +37,24 @@ struct Chart {
 };
 
 /// Cuts what shines into charts, the largest sides first.
-/// \param texel its edge [scene units]
-[[nodiscard]] std::vector<Chart> make_charts(const SurfaceMesh& mesh,
-                                             const std::vector<RootSide>& sides, double texel);
+class ChartMaker {
+public:
+    /// Keeps references.
+    ChartMaker(const SurfaceMesh& mesh, const std::vector<RootSide>& sides);
+
+    /// \param texel its edge [scene units]
+    [[nodiscard]] std::vector<Chart> make(double texel) const;
+
+private:
+    Chart grow(std::uint32_t first, double texel, std::vector<std::uint8_t>& is_taken) const;
+    [[nodiscard]] bool belongs(std::uint32_t side, std::uint32_t object,
+                               const glm::dvec3& normal) const;
+
+    const SurfaceMesh& mesh_;
+    const std::vector<RootSide>& sides_;
+    std::vector<std::uint32_t> order_;
+    std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> sides_at_;  ///< edges
+};
 
 /// Places charts within a square, in rows. \returns false where they find no room
 [[nodiscard]] bool pack_charts(std::vector<Chart>& charts, int size);

@@ -21,9 +21,9 @@ struct RadianceField {
     [[nodiscard]] bool emits(const RootSide& side) const;
 };
 
-/// Writes the texels of a chart, and which of them see an emitter: what is seen at their middle or, about the chart, at the nearest
-/// point of it (dilation). Then moves those at borders so that linear filtering gives there what
-/// the surface shines with, on either side of a seam (stitching).
+/// Writes the texels of a chart, and which of them see an emitter: what is seen at their middle or,
+/// about the chart, at the nearest point of it (dilation). Then moves those at borders so that
+/// linear filtering gives there what the surface shines with, on either side of a seam (stitching).
 void fill_chart(const Chart& chart, const RadianceField& field, Image& lightmap);
 
 }  // namespace transillum

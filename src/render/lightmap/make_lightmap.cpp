@@ -62,8 +62,9 @@ std::vector<Chart> lay_out(const SurfaceMesh& mesh, const ShiningSides& shining,
                            double& texel) {
     constexpr double coarser = 1.08;
     const double side = std::sqrt(shining.area);
+    const ChartMaker maker(mesh, shining.sides);
     for (texel = side / size; texel < side; texel *= coarser) {
-        std::vector<Chart> charts = make_charts(mesh, shining.sides, texel);
+        std::vector<Chart> charts = maker.make(texel);
         if (pack_charts(charts, size)) return charts;
         double used = 0.0;
         for (const Chart& c : charts) used += double(c.width) * c.height;
