@@ -1,7 +1,6 @@
 #include "solution_view.h"
 
 #include <transillum/base/error.h>
-#include <transillum/base/srgb.h>
 #include <transillum/render/render_solution.h>
 
 #include <fmt/format.h>
@@ -113,12 +112,7 @@ SolutionView::SolutionView(SpectralSolution solution, std::string name, const Wo
         text->BoldOff();
         text->ShadowOff();
     }
-    still_mapper_->SetInputData(still_data_);
-    still_mapper_->SetColorWindow(255.0);
-    still_mapper_->SetColorLevel(127.5);
-    still_actor_->SetMapper(still_mapper_);
-    still_actor_->VisibilityOff();
-    renderer_->AddActor2D(still_actor_);  // first: under the text
+    renderer_->AddActor2D(&overlay_.actor());  // first: under the text
     for (vtkTextActor* const text : {title_.Get(), help_.Get()}) {
         const bool is_title = text == title_.Get();
         text->GetPositionCoordinate()->SetCoordinateSystemToNormalizedViewport();
@@ -187,13 +181,9 @@ void SolutionView::colour_as_picture(const Quantity& quantity) {
     vtkNew<vtkUnsignedCharArray> colours;
     colours->SetNumberOfComponents(3);
     colours->SetNumberOfTuples(static_cast<vtkIdType>(radiance.size()));
-    for (std::size_t v = 0; v < radiance.size(); ++v) {
-        const Spectrum shown = display_colour(radiance[v], stops_);
-        for (int c = 0; c < channel_count; ++c)
-            colours->SetTypedComponent(
-                static_cast<vtkIdType>(v), c,
-                static_cast<unsigned char>(std::lround(255.0f * srgb_from_linear(shown[c]))));
-    }
+    for (std::size_t v = 0; v < radiance.size(); ++v)
+        colours->SetTypedTuple(static_cast<vtkIdType>(v),
+                               screen_colour(radiance[v], stops_).data());
     data_->GetCellData()->SetScalars(nullptr);
     data_->GetPointData()->SetScalars(colours);
     mapper_->SetScalarModeToUsePointData();
@@ -243,7 +233,7 @@ void SolutionView::show(std::size_t quantity) {
 void SolutionView::expose(double stops) {
     stops_ = stops;
     if (quantities_[shown_].is_picture) colour();
-    if (still_) colour_still_picture();
+    if (still_) show_still_picture();
     draw();
 }
 
@@ -314,7 +304,7 @@ void SolutionView::stop_still_picture() {
     if (!is_begun_) return;
     is_begun_ = false;
     still_.reset();
-    still_actor_->VisibilityOff();
+    overlay_.hide();
     still_picture_->stop();
     annotate();
 }
@@ -334,26 +324,13 @@ void SolutionView::look_after_still_picture() {
         draw();
     } else if (auto came = still_picture_->take()) {
         still_ = std::move(came);
-        colour_still_picture();
+        show_still_picture();
         draw();
     }
 }
 
-void SolutionView::colour_still_picture() {
-    const Image& image = still_->image;
-    still_data_->SetDimensions(image.width, image.height, 1);
-    still_data_->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
-    for (int y = 0; y < image.height; ++y)
-        for (int x = 0; x < image.width; ++x) {
-            const Spectrum shown = display_colour(image.at(x, y), stops_);
-            auto* const pixel = static_cast<unsigned char*>(
-                still_data_->GetScalarPointer(x, image.height - 1 - y, 0));
-            for (int i = 0; i < channel_count; ++i)
-                pixel[i] =
-                    static_cast<unsigned char>(std::lround(255.0f * srgb_from_linear(shown[i])));
-        }
-    still_data_->Modified();
-    still_actor_->VisibilityOn();
+void SolutionView::show_still_picture() {
+    overlay_.show(still_->image, stops_);
     annotate();
 }
 

@@ -2,13 +2,11 @@
 /// of that, and text. What the keys ask for are functions here.
 #pragma once
 
+#include "picture_overlay.h"
 #include "quantities.h"
 #include "still_picture.h"
 
 #include <vtkActor.h>
-#include <vtkActor2D.h>
-#include <vtkImageData.h>
-#include <vtkImageMapper.h>
 #include <vtkNew.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
@@ -71,7 +69,7 @@ private:
     void colour();
     void colour_as_picture(const Quantity& quantity);
     void colour_by_map(const Quantity& quantity);
-    void colour_still_picture();
+    void show_still_picture();
     void stop_still_picture();
     void annotate();
     /// What the picture depends on that may change by itself.
@@ -105,9 +103,7 @@ private:
     vtkNew<vtkPolyData> data_;
     vtkNew<vtkPolyDataMapper> mapper_;
     vtkNew<vtkActor> actor_;
-    vtkNew<vtkImageData> still_data_;
-    vtkNew<vtkImageMapper> still_mapper_;
-    vtkNew<vtkActor2D> still_actor_;  ///< over the triangles
+    PictureOverlay overlay_;  ///< the still picture
     vtkNew<vtkScalarBarActor> bar_;
     vtkNew<vtkTextActor> title_, help_;  ///< at the top, with what was picked; at the bottom
     vtkNew<vtkRenderer> renderer_;
